@@ -1,0 +1,36 @@
+# Flags that every target shares, and helpers to declare a room (one target a folder).
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+option(LAMBERT_WERROR "Treat warnings as errors" OFF)
+set(LAMBERT_SANITIZE "" CACHE STRING "address,undefined or thread; empty: none")
+
+add_library(lambert_flags INTERFACE)
+target_include_directories(lambert_flags INTERFACE ${PROJECT_SOURCE_DIR})
+# The same bits on every machine: no contraction to FMA, no fast-math; AVX2 is the pinned baseline.
+target_compile_options(lambert_flags INTERFACE
+  -march=x86-64-v3 -ffp-contract=off -fno-math-errno -Wall -Wextra -Wno-unused-parameter
+  $<$<BOOL:${LAMBERT_WERROR}>:-Werror>)
+if(LAMBERT_SANITIZE)
+  target_compile_options(lambert_flags INTERFACE -fsanitize=${LAMBERT_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(lambert_flags INTERFACE -fsanitize=${LAMBERT_SANITIZE})
+endif()
+
+# lambert_room(NAME SOURCES ... PUBLIC ... PRIVATE ...): static library lambert_NAME.
+function(lambert_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(lambert_${name} STATIC ${ROOM_SOURCES})
+  target_link_libraries(lambert_${name} PUBLIC lambert_flags ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE})
+endfunction()
+
+# lambert_test(NAME SOURCES ... LIBS ... [LABELS ...]): a GoogleTest program, one ctest entry a test.
+function(lambert_test name)
+  cmake_parse_arguments(TEST "" "" "SOURCES;LIBS;LABELS" ${ARGN})
+  add_executable(${name} ${TEST_SOURCES})
+  target_link_libraries(${name} PRIVATE lambert_flags ${TEST_LIBS} GTest::gtest_main)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 300)
+endfunction()

@@ -1,0 +1,29 @@
+// Scene -> PatchSet.
+#pragma once
+
+#include "absl/status/statusor.h"
+#include "radiosity/patch/patch_set.h"
+#include "radiosity/scene/scene.h"
+
+namespace lambert {
+
+enum class EmissionUnit { kNit, kWattPerM2PerSr };
+
+struct PatchOptions {
+  double max_edge_m = 0;        // longest edge of a patch after splitting; 0: triangles as they are
+  bool two_sided = false;       // true: every triangle is two-sided, whatever its material says
+  EmissionUnit emission_unit = EmissionUnit::kNit;  // unit of the file's emission; W/m2/sr: the
+                                                    // solution is radiometric (W in place of lm)
+  int64_t max_patches = 20'000'000;                 // more: SCENE_TOO_LARGE
+  // INVALID_ARGUMENT (reason FIELD_INVALID) naming the field that is out of range.
+  absl::Status Validate() const;
+};
+
+// Splits, transforms (in double, recentred), drops triangles of no area (counted in a warning
+// ZERO_AREA_PATCHES), averages textures over each patch, and sorts. Exitance is pi times the
+// luminance. Reflectance over 1 is clamped with a warning (REFLECTANCE_CLAMPED), over .95 warned of
+// (REFLECTANCE_HIGH); values that are not finite are refused by name. No emitter at all: warning
+// NO_EMITTERS. No triangle left: SceneError with reason NO_TRIANGLES.
+absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& options);
+
+}  // namespace lambert

@@ -1,0 +1,70 @@
+// A unit of work and its result: pure data, a pure function apart (shooter.h).
+//
+// Flux travels in quanta: int64 multiples of a power of two lumen that the step fixes per channel.
+// Sums of integers do not depend on order, so results merge to the same bits in any order.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "radiosity/patch/patch_set.h"
+
+namespace lambert {
+
+using Quanta = std::array<int64_t, 3>;  // r, g, b
+
+// Rays [ray_begin, ray_end) of the `ray_count` rays that share the quanta of one emitter.
+// Emitter: patch index, or patches.size() + l for point light l.
+struct Visit {
+  PatchIndex emitter = 0;
+  uint32_t ray_count = 0;
+  uint32_t ray_begin = 0, ray_end = 0;
+  Quanta quanta{};          // dealt over all ray_count rays: quotient, then one extra to the first
+  bool operator==(const Visit&) const = default;
+};
+
+struct WorkUnit {
+  uint64_t seed = 0;
+  uint32_t pass = 0, step = 0;
+  std::vector<Visit> visits;
+  bool operator==(const WorkUnit&) const = default;
+
+  int64_t RayCount() const;
+};
+
+// What arrived at one patch. 32 bytes, so that a deposit touches one cache line.
+struct alignas(32) Deposit {
+  int64_t r = 0, g = 0, b = 0;
+  int64_t hits = 0;
+  bool operator==(const Deposit&) const = default;
+};
+
+// Result of one unit, or of any number of merged units.
+struct UnitResult {
+  std::vector<Deposit> deposits;  // by patch
+  Quanta shot{};                  // = sum of deposits + escaped + lost_at_backs, each channel
+  Quanta escaped{};               // left the scene
+  Quanta lost_at_backs{};         // hit the back of a one-sided patch
+  int64_t rays = 0;
+  double cpu_seconds = 0;
+  bool operator==(const UnitResult&) const = default;
+};
+
+// Adds `from` to `into`. Requires: the same number of patches (or `into` without any).
+void MergeResult(const UnitResult& from, UnitResult& into);
+
+// OK if shot = deposited + escaped + lost in each channel, and rays = hits + misses is possible for
+// `unit`; else DATA_LOSS (reason RESULT_INVALID) with both numbers.
+absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result);
+
+// Canonical bytes (docs/formats.md). Decoding fails with DATA_LOSS and never crashes; limits are
+// checked before anything is allocated. `patch_count` is what the result must be about.
+std::string EncodeUnit(const WorkUnit& unit);
+absl::StatusOr<WorkUnit> DecodeUnit(const std::string& bytes);
+std::string EncodeUnitResult(const UnitResult& result);
+absl::StatusOr<UnitResult> DecodeUnitResult(const std::string& bytes, PatchIndex patch_count);
+
+}  // namespace lambert
