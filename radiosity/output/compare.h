@@ -1,0 +1,29 @@
+// How far a solution is from a reference: the error measures of docs/formats.md.
+#pragma once
+
+#include <optional>
+#include <set>
+
+#include "absl/status/statusor.h"
+#include "radiosity/output/patch_table.h"
+
+namespace lambert {
+
+// Ratios to the area-weighted mean reflected radiosity of the reference; RGB taken as its mean.
+// Empty where undefined: the reference reflects no light, or no region was named.
+struct ErrorMeasures {
+  std::optional<double> rms_area;    // weighted by area
+  std::optional<double> rms_patch;   // every patch counts the same
+  std::optional<double> rms_local;   // rms_patch of the region, over the region's own mean
+  std::optional<double> p95;         // 95th percentile of a patch's relative error
+  std::optional<double> power_bias;  // reflected flux over the reference's, minus 1
+};
+
+// Patches are paired by index where both tables have equally many with equal areas, else by origin
+// (node, mesh, primitive, triangle) and corners. `region_nodes` are glTF node indices.
+// INVALID_ARGUMENT (reason TABLES_DIFFER) where patches have no partner; NOT_FOUND (reason
+// REGION_EMPTY) where a region is named that has no patch.
+absl::StatusOr<ErrorMeasures> Compare(const PatchTable& table, const PatchTable& reference,
+                                      const std::set<int>& region_nodes = {});
+
+}  // namespace lambert

@@ -1,0 +1,38 @@
+// Everything that the output files tell of one run.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "radiosity/output/compare.h"
+#include "radiosity/output/convergence.h"
+#include "radiosity/patch/build_patches.h"
+#include "radiosity/patch/patch_set.h"
+#include "radiosity/solve/plan.h"
+#include "radiosity/solve/solution.h"
+#include "radiosity/solve/solver.h"
+
+namespace lambert {
+
+struct RunRecord {
+  std::string name;          // of the scene, without folder and ending: "room" gives room.glb
+  std::string scene_digest;  // SHA-256 of what was submitted
+  std::shared_ptr<const PatchSet> patches;
+  PatchOptions patch_options;
+  Plan plan;                 // with the options that were used
+  Snapshot snapshot;         // the last one; its solution is not null
+  StopReason stop_reason = StopReason::kNone;
+  bool interrupted = false;  // stopped by hand before any goal
+  int workers = 0;           // that took part; 0: not known
+  int threads = 0;           // a worker; 0: not known
+  std::vector<ConvergenceRow> convergence;   // as in convergence.csv, in order
+  std::optional<ErrorMeasures> measures;     // of the snapshot, with a reference
+  std::vector<std::pair<std::string, std::string>> versions;  // program or library, version
+  std::string unit_version;                  // the pins: UnitVersion()
+  std::vector<std::pair<std::string, double>> timings_s;      // what, seconds, in order
+};
+
+}  // namespace lambert
