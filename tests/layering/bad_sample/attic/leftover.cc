@@ -1,0 +1,1 @@
+#include "radiosity/core/looks_down.h"

@@ -1,0 +1,4 @@
+#include <thread>
+
+#include "radiosity/patch/patch.h"
+#include "tiny_gltf.h"

@@ -1,0 +1,2 @@
+#  include <OpenEXR/ImfRgba.h>
+#include "radiosity/scene/scene.h"
