@@ -1,0 +1,30 @@
+#include "radiosity/patch/patch_set.h"
+
+#include <numbers>
+
+namespace lambert {
+
+Vec3 PatchNormal(const PatchSet& patches, PatchIndex i) {
+  const auto& [a, b, c] = patches.corners[i];
+  // Edges of unit size, so that the product of two tiny edges does not underflow.
+  double scale = std::max({Length(b - a), Length(c - a), Length(c - b)});
+  return Normalized(Cross((b - a) / scale, (c - a) / scale));
+}
+
+Vec3 PatchCentroid(const PatchSet& patches, PatchIndex i) {
+  const auto& [a, b, c] = patches.corners[i];
+  return (a + b + c) / 3;
+}
+
+Rgb EmittedFlux(const PatchSet& patches) {
+  Rgb flux_lm;
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    flux_lm = flux_lm + patches.exitance_lm_per_m2[i] * patches.area_m2[i];
+  }
+  for (const PointLight& light : patches.point_lights) {
+    flux_lm = flux_lm + light.intensity_cd * (4 * std::numbers::pi);
+  }
+  return flux_lm;
+}
+
+}  // namespace lambert

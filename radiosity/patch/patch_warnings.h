@@ -1,0 +1,13 @@
+// What a finished patch set should make its user think of.
+#pragma once
+
+#include "radiosity/patch/patch_set.h"
+
+namespace lambert {
+
+// Appends to patches->warnings: NO_EMITTERS; REFLECTANCE_HIGH with the number of patches that
+// reflect more than 95 %; POSSIBLY_INVERTED_NORMALS where the one-sided patches close a surface
+// that faces outward.
+void AppendPatchWarnings(PatchSet* patches);
+
+}  // namespace lambert

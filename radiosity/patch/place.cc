@@ -1,0 +1,39 @@
+#include "radiosity/patch/place.h"
+
+#include <utility>
+
+namespace lambert {
+namespace {
+
+Vec3 ToVec3(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
+
+}  // namespace
+
+absl::Status ForEachTriangle(const Scene& scene, Vec3 origin,
+                             absl::FunctionRef<absl::Status(const PlacedTriangle&)> visit) {
+  for (const Instance& instance : scene.instances) {
+    Transform world = instance.world;
+    world.translation = world.translation - origin;
+    const bool mirrors = world.Determinant() < 0;
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+      const Primitive& primitive = mesh.primitives[p];
+      for (size_t t = 0; t < primitive.triangles.size(); ++t) {
+        PlacedTriangle placed;
+        placed.vertices = primitive.triangles[t];
+        if (mirrors) std::swap(placed.vertices[1], placed.vertices[2]);
+        for (int k = 0; k < 3; ++k) {
+          placed.corners[k] = world.Point(ToVec3(primitive.positions[placed.vertices[k]]));
+        }
+        placed.primitive = &primitive;
+        placed.source = {instance.node, instance.mesh, static_cast<int32_t>(p),
+                         static_cast<int32_t>(t)};
+        absl::Status status = visit(placed);
+        if (!status.ok()) return status;
+      }
+    }
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace lambert

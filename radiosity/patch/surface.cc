@@ -1,0 +1,65 @@
+#include "radiosity/patch/surface.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "absl/strings/str_cat.h"
+#include "radiosity/core/error.h"
+
+namespace lambert {
+namespace {
+
+bool IsNegative(Rgb a) { return a.r < 0 || a.g < 0 || a.b < 0; }
+
+absl::Status CheckFactor(Rgb factor, size_t material, const char* what) {
+  const std::string where = absl::StrCat("material ", material);
+  if (!IsFinite(factor)) {
+    return SceneError(where, absl::StrCat(what, " is not finite"), "give it a finite value");
+  }
+  if (IsNegative(factor)) {
+    return SceneError(where, absl::StrCat(what, " is negative"), "give it a value of 0 or more");
+  }
+  return absl::OkStatus();
+}
+
+// nullptr where there is no texture, or where its factor makes it invisible.
+const Texture* UsedTexture(const Scene& scene, int texture, Rgb factor) {
+  if (texture < 0 || factor == Rgb{}) return nullptr;
+  return &scene.textures[texture];
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<Surface>> MakeSurfaces(const Scene& scene, bool all_two_sided,
+                                                  std::vector<Warning>* warnings) {
+  std::vector<Surface> surfaces(1);
+  surfaces[0].reflectance = {1, 1, 1};
+  surfaces[0].two_sided = all_two_sided;
+  int clamped = 0;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = scene.materials[i];
+    absl::Status status = CheckFactor(material.reflectance, i, "reflectance");
+    if (status.ok()) status = CheckFactor(material.luminance, i, "emission");
+    if (!status.ok()) return status;
+    const Rgb rho = material.reflectance;
+    Surface surface;
+    surface.reflectance = {std::min(rho.r, 1.0), std::min(rho.g, 1.0), std::min(rho.b, 1.0)};
+    if (surface.reflectance != rho) ++clamped;
+    surface.reflectance_texture = UsedTexture(scene, material.reflectance_texture, rho);
+    surface.reflectance_uv = material.reflectance_uv;
+    // A Lambertian emitter of luminance L sends M = pi L into its half space.
+    surface.exitance_lm_per_m2 = material.luminance * std::numbers::pi;
+    surface.exitance_texture = UsedTexture(scene, material.luminance_texture, material.luminance);
+    surface.exitance_uv = material.luminance_uv;
+    surface.two_sided = material.two_sided || all_two_sided;
+    surfaces.push_back(surface);
+  }
+  if (clamped > 0) {
+    warnings->push_back({"REFLECTANCE_CLAMPED",
+                         absl::StrCat("the reflectance of ", clamped,
+                                      " material(s) is over 1 and was taken as 1")});
+  }
+  return surfaces;
+}
+
+}  // namespace lambert

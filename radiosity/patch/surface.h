@@ -1,0 +1,27 @@
+// Materials as patches need them: checked, clamped and in radiosity's quantities.
+#pragma once
+
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "radiosity/scene/scene.h"
+
+namespace lambert {
+
+struct Surface {
+  Rgb reflectance;                             // 0..1, multiplies the texture
+  const Texture* reflectance_texture = nullptr;  // points into the scene
+  int reflectance_uv = 0;
+  Rgb exitance_lm_per_m2;                      // pi * luminance, multiplies the texture
+  const Texture* exitance_texture = nullptr;
+  int exitance_uv = 0;
+  bool two_sided = false;
+};
+
+// One surface for each material, at index material + 1; index 0 is glTF's default material.
+// Reflectance over 1 becomes 1 (warning REFLECTANCE_CLAMPED). What is negative or not finite is
+// refused with SceneError naming the material. A texture whose factor is zero is left out.
+absl::StatusOr<std::vector<Surface>> MakeSurfaces(const Scene& scene, bool all_two_sided,
+                                                  std::vector<Warning>* warnings);
+
+}  // namespace lambert

@@ -1,0 +1,73 @@
+#include "radiosity/patch/texture_mean.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lambert {
+namespace {
+
+// Samples along the longest edge for every texel that it crosses. 3 keeps the mean of a
+// checkerboard within 1e-3 over a dozen cells.
+constexpr double kSamplesPerTexel = 3;
+
+std::array<double, 256> MakeSrgbTable() {
+  std::array<double, 256> table;
+  for (int code = 0; code < 256; ++code) {
+    const double x = code / 255.0;
+    table[code] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+  }
+  return table;
+}
+
+// Column (or row) of the texel that holds coordinate `t`, where the texture spans 0..1.
+int TexelIndex(double t, int size, Texture::Wrap wrap) {
+  if (wrap == Texture::Wrap::kMirroredRepeat) {
+    t = std::fabs(t - 2 * std::round(t / 2));
+  } else if (wrap == Texture::Wrap::kRepeat) {
+    t -= std::floor(t);
+  }
+  return static_cast<int>(std::clamp(std::floor(t * size), 0.0, size - 1.0));
+}
+
+int SamplesPerEdge(const Texture& texture, const std::array<Uv, 3>& uv, int most) {
+  if (texture.width == 1 && texture.height == 1) return 1;
+  double texels = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Uv &a = uv[k], &b = uv[(k + 1) % 3];
+    texels = std::max(texels, std::hypot((b[0] - a[0]) * texture.width,
+                                         (b[1] - a[1]) * texture.height));
+  }
+  return static_cast<int>(std::clamp(std::ceil(texels * kSamplesPerTexel), 1.0, 1.0 * most));
+}
+
+}  // namespace
+
+double SrgbToLinear(uint8_t code) {
+  static const std::array<double, 256> table = MakeSrgbTable();
+  return table[code];
+}
+
+Rgb TextureMean(const Texture& texture, const std::array<Uv, 3>& uv, int max_samples_per_edge) {
+  const int n = SamplesPerEdge(texture, uv, max_samples_per_edge);
+  Rgb sum;
+  // The triangle is cut into n * n equal triangles; each is sampled at its centroid, whose weights
+  // of corners 1 and 2 are (i + third) / n and (j + third) / n: upright cells have thirds of 1,
+  // inverted ones of 2.
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      for (int inverted = 0; inverted < (i + j + 1 < n ? 2 : 1); ++inverted) {
+        const double w1 = (i + (1 + inverted) / 3.0) / n, w2 = (j + (1 + inverted) / 3.0) / n;
+        const double w0 = 1 - w1 - w2;
+        const int x = TexelIndex(w0 * uv[0][0] + w1 * uv[1][0] + w2 * uv[2][0], texture.width,
+                                 texture.wrap_u);
+        const int y = TexelIndex(w0 * uv[0][1] + w1 * uv[1][1] + w2 * uv[2][1], texture.height,
+                                 texture.wrap_v);
+        const uint8_t* texel = &texture.rgba[(size_t{1} * y * texture.width + x) * 4];
+        sum = sum + Rgb{SrgbToLinear(texel[0]), SrgbToLinear(texel[1]), SrgbToLinear(texel[2])};
+      }
+    }
+  }
+  return sum / (1.0 * n * n);
+}
+
+}  // namespace lambert
