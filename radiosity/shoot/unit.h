@@ -49,7 +49,7 @@ struct UnitResult {
   Quanta escaped{};               // left the scene
   Quanta lost_at_backs{};         // hit the back of a one-sided patch
   int64_t rays = 0;
-  double cpu_seconds = 0;
+  double cpu_seconds = 0;         // of the thread that ran it; not part of the canonical bytes
   bool operator==(const UnitResult&) const = default;
 };
 
@@ -60,7 +60,8 @@ void MergeResult(const UnitResult& from, UnitResult& into);
 // `unit`; else DATA_LOSS (reason RESULT_INVALID) with both numbers.
 absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result);
 
-// Canonical bytes (docs/formats.md). Decoding fails with DATA_LOSS and never crashes; limits are
+// Canonical bytes (docs/formats.md): a unit's result has the same bytes wherever it was computed, so
+// cpu_seconds travels beside them (0 after decoding). Decoding fails with DATA_LOSS and never crashes; limits are
 // checked before anything is allocated. `patch_count` is what the result must be about.
 std::string EncodeUnit(const WorkUnit& unit);
 absl::StatusOr<WorkUnit> DecodeUnit(const std::string& bytes);

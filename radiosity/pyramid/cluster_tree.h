@@ -1,0 +1,52 @@
+// Clusters of patches (Chr95), by which the patches inside a pyramid are counted.
+//
+// The patches' Morton order is cut in halves until few are left; every cluster knows a ball around
+// its vertices. A cluster wholly inside one pyramid is counted whole; others are opened.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "radiosity/patch/patch_set.h"
+#include "radiosity/pyramid/hemisphere.h"
+
+namespace lambert {
+
+// A patch's local frame: origin at its centroid, z along its normal.
+struct LocalFrame {
+  Vec3 origin, x, y, z;
+  Vec3 ToLocal(Vec3 point) const {
+    const Vec3 d = point - origin;
+    return {Dot(d, x), Dot(d, y), Dot(d, z)};
+  }
+};
+LocalFrame PatchFrame(const PatchSet& patches, PatchIndex i);
+
+// Immutable; any number of threads may count at once.
+class ClusterTree {
+ public:
+  // `count_black`: false leaves patches of null reflectance out (JPS00, section 4).
+  ClusterTree(const PatchSet& patches, bool count_black);
+
+  // n_ip: the patches with at least one vertex in pyramid p, as seen in `frame` (JPS00, section 4).
+  // counts[p] for each pyramid of the hemisphere; a patch counts once in each that it touches.
+  // `use_clusters` false tests every vertex: the same counts, for comparison.
+  std::vector<int32_t> CountPatches(const LocalFrame& frame, const Hemisphere& hemisphere,
+                                    bool use_clusters = true) const;
+
+ private:
+  struct Cluster {
+    Vec3 center;
+    double radius = 0;
+    int32_t begin = 0, end = 0;    // counted patches, in Morton order
+    int32_t left = -1, right = -1;  // -1: a leaf
+  };
+  int32_t Build(int32_t begin, int32_t end);
+  void CountVertices(const Cluster& cluster, const LocalFrame& frame, const Hemisphere& hemisphere,
+                     std::vector<int32_t>& counts) const;
+
+  std::vector<std::array<Vec3, 3>> triangles_;
+  std::vector<Cluster> clusters_;  // clusters_[0] holds all, if there are any
+};
+
+}  // namespace lambert

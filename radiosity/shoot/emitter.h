@@ -1,0 +1,65 @@
+// Where rays start and which way they go: positions on patches and point lights, directions by the
+// cosine law, over the sphere, or inside a pyramid.
+#pragma once
+
+#include <vector>
+
+#include "radiosity/patch/patch_set.h"
+#include "radiosity/pyramid/spherical_triangle.h"
+#include "radiosity/shoot/philox.h"
+#include "radiosity/trace/ray_batch.h"
+#include "radiosity/trace/ray_scene.h"
+
+namespace lambert {
+
+// A patch in trace coordinates and its local frame (z = normal), ready for a visit.
+struct EmitterFrame {
+  float corner[3], edge1[3], edge2[3];
+  float x[3], y[3], z[3];
+};
+
+// The frames of all patches, compact; point lights have a position only. Immutable.
+class Emitters {
+ public:
+  Emitters(const PatchSet& patches, const RayScene& scene);
+
+  PatchIndex patch_count() const { return static_cast<PatchIndex>(triangles_.size()); }
+  PatchIndex size() const {
+    return patch_count() + static_cast<PatchIndex>(point_lights_.size());
+  }
+  bool IsPointLight(PatchIndex emitter) const { return emitter >= patch_count(); }
+  // Requires: emitter < patch_count().
+  EmitterFrame Frame(PatchIndex emitter) const;
+  // Requires: IsPointLight(emitter).
+  const float* Position(PatchIndex emitter) const {
+    return point_lights_[emitter - patch_count()].data();
+  }
+
+ private:
+  std::vector<std::array<float, 9>> triangles_;  // corner 0, edge to 1, edge to 2
+  std::vector<std::array<float, 3>> point_lights_;
+};
+
+// Each appends rays [begin, end) of a visit to the batch. Requires: room for them.
+
+// Uniform on the patch, cosine law (figure 2 of JPS00; the direction by SC97's concentric map).
+void AppendCosineRays(const EmitterFrame& frame, const RandomStream& stream, uint32_t begin,
+                      uint32_t end, RayBatch& batch);
+// Uniform over the sphere.
+void AppendSphereRays(const float position[3], const RandomStream& stream, uint32_t begin,
+                      uint32_t end, RayBatch& batch);
+// Uniform on the patch, uniform in the solid angle of `pyramid` (figure 7). Writes cos theta of the
+// ray in each slot of the batch to cosine[slot] (RayBatch::kSlots values).
+void AppendSolidAngleRays(const EmitterFrame& frame, const SphericalTriangle& pyramid,
+                          const RandomStream& stream, uint32_t begin, uint32_t end,
+                          RayBatch& batch, float* cosine);
+// The same with density proportional to cos theta inside the pyramid, by rejection.
+void AppendProjectedAngleRays(const EmitterFrame& frame, const SphericalTriangle& pyramid,
+                              const RandomStream& stream, uint32_t begin, uint32_t end,
+                              RayBatch& batch);
+
+// A direction in `pyramid` with density ~ cos theta for one ray, by rejection from Arvo's sampling.
+Vec3 SampleProjectedAngle(const SphericalTriangle& pyramid, const RandomStream& stream,
+                          uint32_t ray, float xi1, float xi2);
+
+}  // namespace lambert

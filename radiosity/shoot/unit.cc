@@ -1,0 +1,193 @@
+#include "radiosity/shoot/unit.h"
+
+#include <algorithm>
+
+#include "radiosity/core/bytes.h"
+#include "radiosity/core/error.h"
+
+namespace lambert {
+namespace {
+
+constexpr uint32_t kUnitMagic = 0x3155574C;    // "LWU1"
+constexpr uint32_t kResultMagic = 0x3152554C;  // "LUR1"
+
+struct UnitHeader {
+  uint32_t magic = kUnitMagic;
+  uint32_t visits = 0;
+  uint64_t seed = 0;
+  uint32_t pass = 0, step = 0;
+};
+
+struct VisitBytes {
+  int32_t emitter;
+  uint32_t ray_count, ray_begin, ray_end;
+  int64_t quanta[3];
+};
+static_assert(sizeof(VisitBytes) == 40);
+
+struct ResultHeader {
+  uint32_t magic = kResultMagic;
+  uint32_t patches = 0;
+  uint32_t entries = 0;  // patches that were hit
+  uint32_t reserved = 0;
+  int64_t shot[3], escaped[3], lost_at_backs[3];
+  int64_t rays = 0;
+};
+static_assert(sizeof(ResultHeader) == 96);
+
+struct DepositBytes {
+  uint32_t patch, hits;
+  int64_t quanta[3];
+};
+static_assert(sizeof(DepositBytes) == 32);
+
+absl::Status Corrupt(const std::string& what, const std::string& why) {
+  return MakeError(absl::StatusCode::kDataLoss,
+                   {"RESULT_INVALID", what, why, "use programs of one version"});
+}
+
+void Add(const Quanta& from, Quanta& into) {
+  for (int c = 0; c < 3; ++c) into[c] += from[c];
+}
+
+void AddDeposit(const Deposit& from, Deposit& into) {
+  into.r += from.r;
+  into.g += from.g;
+  into.b += from.b;
+  into.hits += from.hits;
+}
+
+}  // namespace
+
+int64_t WorkUnit::RayCount() const {
+  int64_t rays = 0;
+  for (const Visit& visit : visits) rays += visit.ray_end - visit.ray_begin;
+  return rays;
+}
+
+void MergeResult(const UnitResult& from, UnitResult& into) {
+  if (into.deposits.empty()) into.deposits.resize(from.deposits.size());
+  for (size_t i = 0; i < from.deposits.size(); ++i) AddDeposit(from.deposits[i], into.deposits[i]);
+  Add(from.shot, into.shot);
+  Add(from.escaped, into.escaped);
+  Add(from.lost_at_backs, into.lost_at_backs);
+  into.rays += from.rays;
+  into.cpu_seconds += from.cpu_seconds;
+}
+
+absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result) {
+  const int64_t rays = unit.RayCount();
+  if (result.rays != rays) {
+    return Corrupt("unit result", "it reports " + std::to_string(result.rays) + " rays of " +
+                                      std::to_string(rays));
+  }
+  // 128 bits: a forged result must not pass by overflowing.
+  __int128 arrived[3] = {0, 0, 0};
+  __int128 hits = 0;
+  for (const Deposit& deposit : result.deposits) {
+    if (deposit.r < 0 || deposit.g < 0 || deposit.b < 0 || deposit.hits < 0) {
+      return Corrupt("unit result", "a deposit is negative");
+    }
+    arrived[0] += deposit.r;
+    arrived[1] += deposit.g;
+    arrived[2] += deposit.b;
+    hits += deposit.hits;
+  }
+  if (hits > rays) return Corrupt("unit result", "more rays arrived than were shot");
+  for (int c = 0; c < 3; ++c) {
+    if (result.escaped[c] < 0 || result.lost_at_backs[c] < 0 ||
+        arrived[c] + result.escaped[c] + result.lost_at_backs[c] != result.shot[c]) {
+      return Corrupt("unit result, channel " + std::to_string(c),
+                     "the ledger does not balance: shot " + std::to_string(result.shot[c]) +
+                         ", arrived " + std::to_string(static_cast<int64_t>(arrived[c])) +
+                         ", escaped " + std::to_string(result.escaped[c]) + ", lost at backs " +
+                         std::to_string(result.lost_at_backs[c]));
+    }
+  }
+  return absl::OkStatus();
+}
+
+std::string EncodeUnit(const WorkUnit& unit) {
+  ByteWriter writer;
+  UnitHeader header;
+  header.visits = static_cast<uint32_t>(unit.visits.size());
+  header.seed = unit.seed;
+  header.pass = unit.pass;
+  header.step = unit.step;
+  writer.Put(header);
+  for (const Visit& v : unit.visits) {
+    writer.Put(VisitBytes{v.emitter, v.ray_count, v.ray_begin, v.ray_end,
+                          {v.quanta[0], v.quanta[1], v.quanta[2]}});
+  }
+  return writer.Take();
+}
+
+absl::StatusOr<WorkUnit> DecodeUnit(const std::string& bytes) {
+  ByteReader reader(bytes);
+  UnitHeader header;
+  if (!reader.Get(&header) || header.magic != kUnitMagic ||
+      reader.remaining() != header.visits * sizeof(VisitBytes)) {
+    return Corrupt("work unit", "the bytes are not a work unit");
+  }
+  WorkUnit unit{header.seed, header.pass, header.step, {}};
+  unit.visits.reserve(header.visits);
+  for (uint32_t k = 0; k < header.visits; ++k) {
+    VisitBytes v;
+    reader.Get(&v);
+    unit.visits.push_back({v.emitter, v.ray_count, v.ray_begin, v.ray_end,
+                           {v.quanta[0], v.quanta[1], v.quanta[2]}});
+  }
+  return unit;
+}
+
+std::string EncodeUnitResult(const UnitResult& result) {
+  ByteWriter writer;
+  ResultHeader header;
+  header.patches = static_cast<uint32_t>(result.deposits.size());
+  header.entries = static_cast<uint32_t>(
+      std::count_if(result.deposits.begin(), result.deposits.end(),
+                    [](const Deposit& d) { return d.hits != 0; }));
+  std::copy(result.shot.begin(), result.shot.end(), header.shot);
+  std::copy(result.escaped.begin(), result.escaped.end(), header.escaped);
+  std::copy(result.lost_at_backs.begin(), result.lost_at_backs.end(), header.lost_at_backs);
+  header.rays = result.rays;
+  writer.Put(header);
+  for (size_t i = 0; i < result.deposits.size(); ++i) {
+    const Deposit& d = result.deposits[i];
+    if (d.hits == 0) continue;
+    writer.Put(DepositBytes{
+        static_cast<uint32_t>(i), static_cast<uint32_t>(d.hits), {d.r, d.g, d.b}});
+  }
+  return writer.Take();
+}
+
+absl::StatusOr<UnitResult> DecodeUnitResult(const std::string& bytes, PatchIndex patch_count) {
+  ByteReader reader(bytes);
+  ResultHeader header;
+  if (!reader.Get(&header) || header.magic != kResultMagic ||
+      header.patches != static_cast<uint32_t>(patch_count) ||
+      reader.remaining() != header.entries * sizeof(DepositBytes)) {
+    return Corrupt("unit result", "the bytes are not a result for " +
+                                      std::to_string(patch_count) + " patches");
+  }
+  UnitResult result;
+  result.deposits.resize(patch_count);
+  std::copy(std::begin(header.shot), std::end(header.shot), result.shot.begin());
+  std::copy(std::begin(header.escaped), std::end(header.escaped), result.escaped.begin());
+  std::copy(std::begin(header.lost_at_backs), std::end(header.lost_at_backs),
+            result.lost_at_backs.begin());
+  result.rays = header.rays;
+  int64_t previous = -1;
+  for (uint32_t k = 0; k < header.entries; ++k) {
+    DepositBytes d;
+    reader.Get(&d);
+    if (d.patch <= previous || d.patch >= header.patches || d.hits == 0) {
+      return Corrupt("unit result", "its patches are out of order or out of range");
+    }
+    previous = d.patch;
+    result.deposits[d.patch] = {d.quanta[0], d.quanta[1], d.quanta[2], d.hits};
+  }
+  return result;
+}
+
+}  // namespace lambert

@@ -1,0 +1,25 @@
+// Rays on their way: structure of arrays, filled by a sampler and answered by RayScene::Trace.
+#pragma once
+
+#include <cstdint>
+
+#include "radiosity/patch/patch_set.h"
+
+namespace lambert {
+
+// Special values of RayBatch::hit.
+inline constexpr PatchIndex kEscaped = -1;     // the ray left the scene
+inline constexpr PatchIndex kLostAtBack = -2;  // it hit the back of a one-sided patch
+
+struct RayBatch {
+  static constexpr int kCapacity = 1024;  // a multiple of the packet width; fits the L2 cache
+  static constexpr int kSlots = kCapacity + 8;  // samplers write eight rays at a time
+
+  int size = 0;  // <= kCapacity
+  // Trace coordinates (RayScene::ToTrace); directions of any length > 0.
+  alignas(64) float origin_x[kSlots], origin_y[kSlots], origin_z[kSlots];
+  alignas(64) float direction_x[kSlots], direction_y[kSlots], direction_z[kSlots];
+  alignas(64) PatchIndex hit[kSlots];  // result: a patch, kEscaped or kLostAtBack
+};
+
+}  // namespace lambert

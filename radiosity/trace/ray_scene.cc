@@ -1,0 +1,263 @@
+#include "radiosity/trace/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "radiosity/core/error.h"
+
+namespace lambert {
+namespace {
+
+// One instruction set everywhere: hits differ in their last bits between sets. Building in the
+// calling thread keeps the library free of threads that it was not given.
+constexpr char kDeviceConfig[] = "isa=avx2,threads=1,set_affinity=0";
+constexpr int kPacketWidth = 8;  // the native width of AVX2
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// What the filter of the culling scene needs of each triangle.
+struct Faces {
+  std::vector<PatchIndex> front;  // by Embree primitive
+  std::vector<PatchIndex> back;   // kNoPatch: one-sided
+};
+
+// Rejects the backs of one-sided triangles. Embree calls it with one ray at a time here.
+void CullBacks(const RTCFilterFunctionNArguments* args) {
+  const Faces& faces = *static_cast<const Faces*>(args->geometryUserPtr);
+  const auto* ray = reinterpret_cast<const RTCRay*>(args->ray);
+  const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
+  const float facing = hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z;
+  if (facing > 0 && faces.back[hit->primID] == kNoPatch) args->valid[0] = 0;
+}
+
+RTCRayHit MakeRay(const float origin[3], const float direction[3], float near, float far) {
+  RTCRayHit ray;
+  ray.ray.org_x = origin[0];
+  ray.ray.org_y = origin[1];
+  ray.ray.org_z = origin[2];
+  ray.ray.dir_x = direction[0];
+  ray.ray.dir_y = direction[1];
+  ray.ray.dir_z = direction[2];
+  ray.ray.tnear = near;
+  ray.ray.tfar = far;
+  ray.ray.time = 0;
+  ray.ray.mask = -1;
+  ray.ray.id = 0;
+  ray.ray.flags = 0;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  ray.hit.primID = RTC_INVALID_GEOMETRY_ID;
+  ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return ray;
+}
+
+bool HitsBack(const RTCRayHit& r) {
+  return r.hit.Ng_x * r.ray.dir_x + r.hit.Ng_y * r.ray.dir_y + r.hit.Ng_z * r.ray.dir_z > 0;
+}
+
+}  // namespace
+
+struct RayScene::Impl {
+  Vec3 center;        // of the bounding box, metres relative to the patch set's origin
+  double scale = 1;   // trace coordinates per metre
+  Faces faces;
+  std::vector<float> vertices;  // 9 a triangle and 4 of padding, shared with Embree
+  std::vector<uint32_t> indices;
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  // The same triangles with CullBacks: built when the first ray needs it, as closed scenes never do
+  // and a filter function would slow every packet down.
+  mutable std::once_flag culling_once;
+  mutable RTCScene culling = nullptr;
+
+  ~Impl() {
+    if (culling != nullptr) rtcReleaseScene(culling);
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+
+  void Place(const PatchSet& patches);
+  RTCScene Build(bool cull_backs) const;
+  RTCScene CullingScene() const;
+  PatchIndex Resolve(const RTCRayHit& ray) const;
+  PatchIndex FrontNear(const float origin[3], const float direction[3], float distance) const;
+  void TracePacket(RayBatch& batch, int first) const;
+};
+
+void RayScene::Impl::Place(const PatchSet& patches) {
+  Vec3 low = patches.corners[0][0], high = low;
+  for (const auto& triangle : patches.corners) {
+    for (const Vec3& p : triangle) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  }
+  center = (low + high) * 0.5;
+  scale = std::ldexp(1.0, -std::ilogb(Length(high - low)));
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    if (patches.is_back[i]) continue;
+    faces.front.push_back(i);
+    faces.back.push_back(patches.twin[i]);
+    for (const Vec3& p : patches.corners[i]) {
+      const Vec3 q = (p - center) * scale;
+      vertices.insert(vertices.end(),
+                      {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)});
+    }
+  }
+  indices.resize(vertices.size() / 3);
+  for (size_t k = 0; k < indices.size(); ++k) indices[k] = static_cast<uint32_t>(k);
+  vertices.insert(vertices.end(), 4, 0.0f);  // Embree may read 16 bytes at the last vertex
+}
+
+RTCScene RayScene::Impl::Build(bool cull_backs) const {
+  RTCScene built = rtcNewScene(device);
+  rtcSetSceneFlags(built, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(built, RTC_BUILD_QUALITY_MEDIUM);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const size_t triangles = faces.front.size();
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                             vertices.data(), 0, 3 * sizeof(float), 3 * triangles);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(),
+                             0, 3 * sizeof(uint32_t), triangles);
+  if (cull_backs) {
+    rtcSetGeometryUserData(geometry, const_cast<Faces*>(&faces));
+    rtcSetGeometryIntersectFilterFunction(geometry, CullBacks);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(built, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(built);
+  return built;
+}
+
+RTCScene RayScene::Impl::CullingScene() const {
+  std::call_once(culling_once, [this] { culling = Build(/*cull_backs=*/true); });
+  return culling;
+}
+
+PatchIndex RayScene::Impl::Resolve(const RTCRayHit& ray) const {
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kEscaped;
+  if (!HitsBack(ray)) return faces.front[ray.hit.primID];
+  const PatchIndex back = faces.back[ray.hit.primID];
+  return back == kNoPatch ? kLostAtBack : back;
+}
+
+PatchIndex RayScene::Impl::FrontNear(const float origin[3], const float direction[3],
+                                     float distance) const {
+  const float length = std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] +
+                                 direction[2] * direction[2]);
+  const float reach = kTieDistance / length;
+  RTCRayHit ray =
+      MakeRay(origin, direction, std::max(0.0f, distance - reach), distance + reach);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(CullingScene(), &context, &ray);
+  const PatchIndex front = Resolve(ray);
+  return front == kEscaped ? kLostAtBack : front;
+}
+
+void RayScene::Impl::TracePacket(RayBatch& batch, int first) const {
+  RTCRayHit8 packet;
+  alignas(32) int valid[kPacketWidth];
+  std::memcpy(packet.ray.org_x, batch.origin_x + first, sizeof(packet.ray.org_x));
+  std::memcpy(packet.ray.org_y, batch.origin_y + first, sizeof(packet.ray.org_y));
+  std::memcpy(packet.ray.org_z, batch.origin_z + first, sizeof(packet.ray.org_z));
+  std::memcpy(packet.ray.dir_x, batch.direction_x + first, sizeof(packet.ray.dir_x));
+  std::memcpy(packet.ray.dir_y, batch.direction_y + first, sizeof(packet.ray.dir_y));
+  std::memcpy(packet.ray.dir_z, batch.direction_z + first, sizeof(packet.ray.dir_z));
+  for (int l = 0; l < kPacketWidth; ++l) {
+    valid[l] = first + l < batch.size ? -1 : 0;
+    packet.ray.tnear[l] = 0;
+    packet.ray.tfar[l] = kInfinity;
+    packet.ray.time[l] = 0;
+    packet.ray.mask[l] = ~0u;
+    packet.ray.flags[l] = 0;
+    packet.hit.geomID[l] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][l] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect8(valid, scene, &context, &packet);
+  for (int l = 0; l < kPacketWidth; ++l) {
+    if (valid[l] == 0) break;
+    PatchIndex hit = kEscaped;
+    if (packet.hit.geomID[l] != RTC_INVALID_GEOMETRY_ID) {
+      const uint32_t face = packet.hit.primID[l];
+      const float facing = packet.hit.Ng_x[l] * packet.ray.dir_x[l] +
+                           packet.hit.Ng_y[l] * packet.ray.dir_y[l] +
+                           packet.hit.Ng_z[l] * packet.ray.dir_z[l];
+      hit = facing > 0 ? faces.back[face] : faces.front[face];
+      if (hit == kNoPatch) {
+        const float origin[3] = {packet.ray.org_x[l], packet.ray.org_y[l], packet.ray.org_z[l]};
+        const float direction[3] = {packet.ray.dir_x[l], packet.ray.dir_y[l], packet.ray.dir_z[l]};
+        hit = FrontNear(origin, direction, packet.ray.tfar[l]);
+      }
+    }
+    batch.hit[first + l] = hit;
+  }
+}
+
+std::string TracerPins() {
+  return "embree-" + std::to_string(RTC_VERSION_MAJOR) + "." + std::to_string(RTC_VERSION_MINOR) +
+         "." + std::to_string(RTC_VERSION_PATCH) + ",avx2,robust,medium";
+}
+
+absl::StatusOr<std::unique_ptr<RayScene>> RayScene::Create(const PatchSet& patches) {
+  if (!__builtin_cpu_supports("avx2")) {
+    return MakeError(absl::StatusCode::kFailedPrecondition,
+                     {"AVX2_MISSING", "this processor", "it has no AVX2",
+                      "run on an x86-64-v3 machine (2013 or later)"});
+  }
+  auto impl = std::make_unique<Impl>();
+  impl->device = rtcNewDevice(kDeviceConfig);
+  if (impl->device == nullptr) {
+    return absl::InternalError("Embree: no device with '" + std::string(kDeviceConfig) + "'");
+  }
+  impl->Place(patches);
+  impl->scene = impl->Build(/*cull_backs=*/false);
+  const RTCError error = rtcGetDeviceError(impl->device);
+  if (error == RTC_ERROR_OUT_OF_MEMORY) {
+    return MakeError(absl::StatusCode::kResourceExhausted,
+                     {"OUT_OF_MEMORY", "ray tracer",
+                      "no memory for " + std::to_string(patches.size()) + " patches",
+                      "use a larger machine or a larger --max-edge"});
+  }
+  if (error != RTC_ERROR_NONE) {
+    return absl::InternalError("Embree: error " + std::to_string(error) + " while building");
+  }
+  return std::unique_ptr<RayScene>(new RayScene(std::move(impl)));
+}
+
+RayScene::RayScene(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RayScene::~RayScene() = default;
+
+void RayScene::Trace(RayBatch& batch) const {
+  for (int first = 0; first < batch.size; first += kPacketWidth) impl_->TracePacket(batch, first);
+}
+
+PictureHit RayScene::Cast(Vec3 origin, Vec3 direction) const {
+  const Vec3 start = ToTrace(origin), d = Normalized(direction);
+  const float from[3] = {static_cast<float>(start.x), static_cast<float>(start.y),
+                         static_cast<float>(start.z)};
+  const float along[3] = {static_cast<float>(d.x), static_cast<float>(d.y),
+                          static_cast<float>(d.z)};
+  RTCRayHit ray = MakeRay(from, along, 0, kInfinity);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(impl_->CullingScene(), &context, &ray);
+  const PatchIndex patch = impl_->Resolve(ray);
+  if (patch < 0) return {};
+  PictureHit hit{patch, ray.hit.u, ray.hit.v, ray.ray.tfar / scale()};
+  // The back runs through its corners the other way: corners 1 and 2 change places.
+  if (HitsBack(ray)) std::swap(hit.u, hit.v);
+  return hit;
+}
+
+Vec3 RayScene::ToTrace(Vec3 point) const { return (point - impl_->center) * impl_->scale; }
+double RayScene::scale() const { return impl_->scale; }
+
+}  // namespace lambert
