@@ -1,0 +1,23 @@
+// A connection to a server.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "absl/status/statusor.h"
+
+namespace grpc {
+class Channel;
+}
+
+namespace lambert::client {
+
+// Connects to "HOST:PORT" (plain text HTTP/2) and waits until the server answers. A server that
+// stops answering later is noticed in a few seconds by keepalive pings, and the channel connects
+// again by itself. Fails with UNAVAILABLE, reason SERVER_UNREACHABLE, as soon as the connection is
+// refused, or after `timeout`.
+absl::StatusOr<std::shared_ptr<grpc::Channel>> Connect(const std::string& server,
+                                                       std::chrono::duration<double> timeout);
+
+}  // namespace lambert::client
