@@ -1,0 +1,140 @@
+#include "server/blobs/uploads.h"
+
+#include "radiosity/core/digest.h"
+#include "radiosity/core/error.h"
+
+namespace lambert::server {
+namespace {
+
+absl::Status OffsetMismatch(const std::string& sha256, int64_t offset, int64_t committed) {
+  return MakeError(absl::StatusCode::kInvalidArgument,
+                   {"OFFSET_MISMATCH", "blobs/" + sha256,
+                    "a piece begins at byte " + std::to_string(offset) + " where " +
+                        std::to_string(committed) + " bytes have arrived",
+                    "ask GetBlobUpload where to go on"});
+}
+
+}  // namespace
+
+Uploads::Uploads(BlobStore* store, const UploadLimits& limits, Clock clock)
+    : store_(store), limits_(limits), clock_(std::move(clock)) {}
+
+absl::Status Uploads::Check(const std::string& sha256, int64_t size_bytes) const {
+  if (!IsSha256Hex(sha256)) {
+    return MakeError(absl::StatusCode::kInvalidArgument,
+                     {"FIELD_INVALID", "digest.sha256", "is not a SHA-256",
+                      "send 64 lower-case hexadecimal characters"});
+  }
+  if (size_bytes < 0) {
+    return MakeError(absl::StatusCode::kInvalidArgument,
+                     {"FIELD_INVALID", "digest.size_bytes", "is negative", "send the blob's size"});
+  }
+  if (size_bytes > limits_.blob_bytes) {
+    return MakeError(absl::StatusCode::kResourceExhausted,
+                     {"BLOB_TOO_LARGE", "blobs/" + sha256,
+                      std::to_string(size_bytes) + " bytes are more than the limit of " +
+                          std::to_string(limits_.blob_bytes),
+                      "make the file smaller"});
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Uploads::Open(const std::string& sha256) {
+  {
+    absl::MutexLock lock(&mutex_);
+    if (entries_.count(sha256) > 0) return absl::OkStatus();
+    entries_[sha256].last_use = clock_();  // busy until it is open
+  }
+  DropOldest();
+  absl::StatusOr<std::unique_ptr<PartialBlob>> partial = store_->OpenPartial(sha256);
+  absl::MutexLock lock(&mutex_);
+  if (!partial.ok()) {
+    entries_.erase(sha256);
+    return partial.status();
+  }
+  entries_[sha256].committed_bytes = (*partial)->size();
+  entries_[sha256].partial = *std::move(partial);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<int64_t> Uploads::CommittedSize(const std::string& sha256, int64_t size_bytes) {
+  if (absl::Status status = Check(sha256, size_bytes); !status.ok()) return status;
+  if (store_->Has(sha256)) return size_bytes;
+  if (absl::Status status = Open(sha256); !status.ok()) return status;
+  absl::MutexLock lock(&mutex_);
+  auto entry = entries_.find(sha256);
+  return entry == entries_.end() ? 0 : entry->second.committed_bytes;
+}
+
+absl::StatusOr<std::unique_ptr<PartialBlob>> Uploads::Take(const std::string& sha256,
+                                                           int64_t offset_bytes) {
+  absl::MutexLock lock(&mutex_);
+  auto entry = entries_.find(sha256);
+  if (entry == entries_.end()) return OffsetMismatch(sha256, offset_bytes, 0);
+  if (entry->second.partial == nullptr || entry->second.committed_bytes != offset_bytes) {
+    return OffsetMismatch(sha256, offset_bytes, entry->second.committed_bytes);
+  }
+  entry->second.last_use = clock_();
+  return std::move(entry->second.partial);
+}
+
+absl::StatusOr<int64_t> Uploads::Write(const std::string& sha256, int64_t size_bytes,
+                                       int64_t offset_bytes, absl::string_view data) {
+  if (absl::Status status = Check(sha256, size_bytes); !status.ok()) return status;
+  if (store_->Has(sha256)) return size_bytes;
+  if (offset_bytes < 0 || offset_bytes + static_cast<int64_t>(data.size()) > size_bytes) {
+    return OffsetMismatch(sha256, offset_bytes, size_bytes);
+  }
+  if (absl::Status status = Open(sha256); !status.ok()) return status;
+  absl::StatusOr<std::unique_ptr<PartialBlob>> partial = Take(sha256, offset_bytes);
+  if (!partial.ok()) return partial.status();
+
+  absl::Status status = (*partial)->Append(data);
+  const int64_t committed = (*partial)->size();
+  const bool complete = status.ok() && committed == size_bytes;
+  if (complete) status = store_->Commit(*std::move(partial), sha256);
+  absl::MutexLock lock(&mutex_);
+  if (complete) {
+    entries_.erase(sha256);
+  } else {
+    entries_[sha256].committed_bytes = committed;
+    entries_[sha256].partial = *std::move(partial);
+  }
+  if (!status.ok()) return status;
+  return committed;
+}
+
+void Uploads::DropIdle() {
+  const TimePoint now = clock_();
+  Drop([&](const Entry& entry) { return now - entry.last_use > limits_.idle; });
+}
+
+void Uploads::DropOldest() {
+  TimePoint oldest = TimePoint::max();
+  {
+    absl::MutexLock lock(&mutex_);
+    if (static_cast<int>(entries_.size()) <= limits_.count) return;
+    for (const auto& [sha256, entry] : entries_) {
+      if (entry.partial != nullptr) oldest = std::min(oldest, entry.last_use);
+    }
+  }
+  Drop([&](const Entry& entry) { return entry.last_use <= oldest; });
+}
+
+void Uploads::Drop(const std::function<bool(const Entry&)>& is_dropped) {
+  std::map<std::string, Entry> dropped;
+  {
+    absl::MutexLock lock(&mutex_);
+    for (auto it = entries_.begin(); it != entries_.end();) {
+      const bool drop = it->second.partial != nullptr && is_dropped(it->second);
+      if (drop) dropped.emplace(it->first, std::move(it->second));
+      it = drop ? entries_.erase(it) : std::next(it);
+    }
+  }
+  for (auto& [sha256, entry] : dropped) {
+    entry.partial.reset();
+    store_->DropPartial(sha256);
+  }
+}
+
+}  // namespace lambert::server
