@@ -1,0 +1,35 @@
+// Which emitter shoots how many rays in a step, carrying which flux: the paper's figure 1 with
+// unbiased rounding.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "radiosity/core/rgb.h"
+#include "radiosity/shoot/unit.h"
+
+namespace lambert {
+
+// The visits of one step. Flux in lumen = quanta * quantum_lm, per channel.
+struct StepPlan {
+  std::vector<Visit> visits;  // whole visits: ray_begin 0, ray_end ray_count
+  Rgb quantum_lm;             // a power of two, or 0 for a channel without flux
+  int64_t rays = 0;
+};
+
+// Emitter i expects e_i = flux_i / flux_per_ray rays (flux: the sum of its channels); the numbers
+// are rounded systematically over the emitters from `offset` in [0, 1), so that E[rays_i] = e_i. An
+// emitter that expects less than one ray sends its flux / e_i when it gets one: Russian roulette,
+// no flux is lost in expectation. Quanta: all flux that is shot is under 2^60 of them.
+// Requires: finite flux >= 0, flux_per_ray > 0.
+StepPlan AllocateRays(const std::vector<Rgb>& unsent_lm, double flux_per_ray_lm, double offset);
+
+// Cuts the visits into units of about `unit_rays` rays; long visits are divided. The results of the
+// units, merged, do not depend on how they were cut. Requires: unit_rays >= 1.
+std::vector<WorkUnit> CutIntoUnits(const StepPlan& plan, uint64_t seed, uint32_t pass,
+                                   uint32_t step, int64_t unit_rays);
+
+// Rays of one unit for a step: a function of the step and the scene alone, never of the workers.
+int64_t UnitRays(int64_t step_rays, int64_t patch_count);
+
+}  // namespace lambert

@@ -1,0 +1,54 @@
+// The flux of one pass: what is unsent, what has arrived, where the rest went.
+#pragma once
+
+#include <vector>
+
+#include "radiosity/core/rgb.h"
+#include "radiosity/patch/patch_set.h"
+#include "radiosity/shoot/unit.h"
+#include "radiosity/solve/allocate.h"
+#include "radiosity/solve/solution.h"
+
+namespace lambert {
+
+// A sum of doubles with its rounding error carried along (Neumaier).
+class CompensatedSum {
+ public:
+  void Add(double value);
+  double value() const { return sum_ + error_; }
+
+ private:
+  double sum_ = 0, error_ = 0;
+};
+
+class FluxLedger {
+ public:
+  // All emitters' emission is unsent: patches first, then point lights.
+  explicit FluxLedger(const PatchSet& patches);
+
+  const std::vector<Rgb>& unsent_lm() const { return unsent_lm_; }
+  // Sum over emitters and channels.
+  double unsent_total_lm() const { return Total(unsent_lm_); }
+  double emitted_total_lm() const { return emitted_.r + emitted_.g + emitted_.b; }
+
+  // Books a step: all that was unsent has been shot as `plan` says and arrived as `result` says;
+  // what arrived and is reflected becomes unsent.
+  void Book(const StepPlan& plan, const UnitResult& result);
+
+  // Flux arrived so far [lm], by patch.
+  const std::vector<Rgb>& arrived_lm() const { return arrived_lm_; }
+  const std::vector<int64_t>& hits() const { return hits_; }
+  Ledger Balance() const;
+
+ private:
+  static double Total(const std::vector<Rgb>& flux);
+
+  const PatchSet& patches_;
+  Rgb emitted_;
+  std::vector<Rgb> unsent_lm_;
+  std::vector<Rgb> arrived_lm_;
+  std::vector<int64_t> hits_;
+  CompensatedSum absorbed_[3], escaped_[3], lost_[3], residual_[3];
+};
+
+}  // namespace lambert

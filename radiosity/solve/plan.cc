@@ -1,0 +1,105 @@
+#include "radiosity/solve/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "radiosity/shoot/density_table.h"
+
+namespace lambert {
+namespace {
+
+constexpr int64_t kMinFirstPassRays = 1 << 13;
+constexpr int64_t kMaxFirstPassRays = 1 << 20;
+constexpr int64_t kPassesInBudget = 4;  // the first pass takes at most this share of --max-rays
+// Mean area times mean inverse area, 1 for equal patches. Over it, small patches stand among large
+// ones and pyramids send them more rays; under it they only add noise (docs/methods.md).
+constexpr double kUnevenAreas = 4;
+
+double AreaUnevenness(const PatchSet& patches) {
+  double sum = 0, inverse = 0;
+  for (double area : patches.area_m2) {
+    sum += area;
+    inverse += 1 / area;
+  }
+  const double n = patches.size();
+  return (sum / n) * (inverse / n);
+}
+
+std::string Text(double value, const char* format = "%.3g") {
+  char text[64];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+int64_t CountBlack(const PatchSet& patches) {
+  return std::count_if(patches.reflectance.begin(), patches.reflectance.end(),
+                       [](const Rgb& rho) { return Mean(rho) == 0; });
+}
+
+int64_t WorkerBytes(const PatchSet& patches, const ShootOptions& shoot) {
+  // Patch set 200, tracer 60 + 119 at the peak of its build, frames 36, one unit's deposits 32.
+  int64_t bytes = patches.size() * (200 + 179 + 36 + 32);
+  if (shoot.method == Method::kPhs) bytes += patches.size() * 110;  // clusters
+  return bytes;
+}
+
+PlanItem PyramidItem(const PatchSet& patches, const ShootOptions& shoot, double unevenness,
+                     bool chosen) {
+  PlanItem item{"pyramids", shoot.method != Method::kPhs, "", ""};
+  if (!chosen) {
+    item.reason = std::string("the method is ") + MethodName(shoot.method) + ", as asked";
+  } else if (item.left_out) {
+    item.reason = "patch areas are even (mean area times mean inverse area " + Text(unevenness) +
+                  ", under " + Text(kUnevenAreas) + "): densities would only add noise";
+  } else {
+    item.reason = "patch areas are uneven (mean area times mean inverse area " +
+                  Text(unevenness) + "): small patches get more rays";
+  }
+  return item;
+}
+
+PlanItem DensityItem(const PatchSet& patches, const PyramidOptions& pyramids) {
+  const int64_t least = MinRaysForDensities(patches, pyramids);
+  return {"densities of dim patches", true,
+          "a patch that shoots under " + std::to_string(least) +
+              " rays in a visit shoots them by the cosine law",
+          "keeps the densities under a tenth of the time of tracing"};
+}
+
+}  // namespace
+
+Plan MakePlan(const PatchSet& patches, const SolveOptions& options) {
+  Plan plan;
+  plan.options = options;
+  SolveOptions& solve = plan.options;
+  const bool chosen = solve.shoot.method == Method::kAuto;
+  const double unevenness = AreaUnevenness(patches);
+  if (chosen) solve.shoot.method = unevenness > kUnevenAreas ? Method::kPhs : Method::kPmcr;
+  if (solve.max_error == 0 && solve.max_rays == 0 && solve.max_time_s == 0) {
+    solve.max_error = kDefaultMaxError;
+  }
+  plan.patches = patches.size();
+  plan.worker_bytes = WorkerBytes(patches, solve.shoot);
+  plan.first_pass_rays =
+      std::clamp<int64_t>(2 * plan.patches, kMinFirstPassRays, kMaxFirstPassRays);
+  if (solve.max_rays > 0) {
+    plan.first_pass_rays =
+        std::max<int64_t>(1, std::min(plan.first_pass_rays, solve.max_rays / kPassesInBudget));
+  }
+  plan.items.push_back(PyramidItem(patches, solve.shoot, unevenness, chosen));
+  if (solve.shoot.method == Method::kPhs) {
+    plan.items.push_back(DensityItem(patches, solve.shoot.pyramids));
+  }
+  if (const int64_t black = CountBlack(patches); black > 0) {
+    plan.items.push_back({"rays from black patches", true,
+                          std::to_string(black) + " patches reflect nothing",
+                          Text(100.0 * static_cast<double>(black) /
+                                   static_cast<double>(patches.size()),
+                               "%.0f") +
+                              " % of the patches never shoot what they receive"});
+  }
+  return plan;
+}
+
+}  // namespace lambert
