@@ -5,7 +5,8 @@
 namespace lambert {
 namespace {
 
-constexpr int32_t kLeafPatches = 8;  // fewer open more clusters, more test more vertices
+// Fewer: more clusters to open. More: more vertices to locate. 3 * 64 still fits a uint8_t.
+constexpr int32_t kLeafPatches = 64;
 
 }  // namespace
 
@@ -20,50 +21,71 @@ LocalFrame PatchFrame(const PatchSet& patches, PatchIndex i) {
 }
 
 ClusterTree::ClusterTree(const PatchSet& patches, bool count_black) {
+  std::vector<std::array<Vec3, 3>> corners;
   for (PatchIndex i = 0; i < patches.size(); ++i) {
-    if (count_black || Mean(patches.reflectance[i]) > 0) triangles_.push_back(patches.corners[i]);
+    if (count_black || Mean(patches.reflectance[i]) > 0) corners.push_back(patches.corners[i]);
   }
-  if (!triangles_.empty()) Build(0, static_cast<int32_t>(triangles_.size()));
+  triangles_.resize(corners.size());
+  if (!corners.empty()) Build(corners, 0, static_cast<int32_t>(corners.size()));
 }
 
-int32_t ClusterTree::Build(int32_t begin, int32_t end) {
+int32_t ClusterTree::Build(const std::vector<std::array<Vec3, 3>>& corners, int32_t begin,
+                           int32_t end) {
   const int32_t index = static_cast<int32_t>(clusters_.size());
   clusters_.emplace_back();
-  Vec3 low = triangles_[begin][0], high = low;
+  Vec3 low = corners[begin][0], high = low;
   for (int32_t i = begin; i < end; ++i) {
-    for (const Vec3& p : triangles_[i]) {
+    for (const Vec3& p : corners[i]) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
   }
   Cluster cluster;
+  cluster.begin = begin;
+  cluster.end = end;
   cluster.center = (low + high) * 0.5;
   for (int32_t i = begin; i < end; ++i) {
-    for (const Vec3& p : triangles_[i]) {
+    for (const Vec3& p : corners[i]) {
       cluster.radius = std::max(cluster.radius, Length(p - cluster.center));
     }
   }
-  cluster.begin = begin;
-  cluster.end = end;
   if (end - begin > kLeafPatches) {
     const int32_t middle = begin + (end - begin) / 2;
-    cluster.left = Build(begin, middle);
-    cluster.right = Build(middle, end);
+    cluster.left = Build(corners, begin, middle);
+    cluster.right = Build(corners, middle, end);
+  } else {
+    FillLeaf(corners, cluster);
   }
   clusters_[index] = cluster;
   return index;
 }
 
-void ClusterTree::CountVertices(const Cluster& cluster, const LocalFrame& frame,
-                                const Hemisphere& hemisphere,
-                                std::vector<int32_t>& counts) const {
-  for (int32_t i = cluster.begin; i < cluster.end; ++i) {
-    int pyramid[3];
+void ClusterTree::FillLeaf(const std::vector<std::array<Vec3, 3>>& corners, Cluster& leaf) {
+  leaf.first_vertex = static_cast<int32_t>(vertices_.size());
+  const auto first = static_cast<ptrdiff_t>(leaf.first_vertex);
+  for (int32_t i = leaf.begin; i < leaf.end; ++i) {
     for (int k = 0; k < 3; ++k) {
-      pyramid[k] = hemisphere.Locate(frame.ToLocal(triangles_[i][k]));
-      const bool seen = (k > 0 && pyramid[k] == pyramid[0]) || (k > 1 && pyramid[k] == pyramid[1]);
-      if (pyramid[k] >= 0 && !seen) ++counts[pyramid[k]];
+      auto found = std::find(vertices_.begin() + first, vertices_.end(), corners[i][k]);
+      triangles_[i][k] = static_cast<uint8_t>(found - vertices_.begin() - first);
+      if (found == vertices_.end()) vertices_.push_back(corners[i][k]);
     }
+  }
+  leaf.vertex_count = static_cast<int32_t>(vertices_.size()) - leaf.first_vertex;
+}
+
+void ClusterTree::CountLeaf(const Cluster& leaf, const LocalFrame& frame,
+                            const Hemisphere& hemisphere, std::vector<int32_t>& counts) const {
+  int32_t located[3 * kLeafPatches];
+  for (int32_t v = 0; v < leaf.vertex_count; ++v) {
+    located[v] = hemisphere.Locate(frame.ToLocal(vertices_[leaf.first_vertex + v]));
+  }
+  for (int32_t i = leaf.begin; i < leaf.end; ++i) {
+    const int32_t p0 = located[triangles_[i][0]];
+    const int32_t p1 = located[triangles_[i][1]];
+    const int32_t p2 = located[triangles_[i][2]];
+    if (p0 >= 0) ++counts[p0];
+    if (p1 >= 0 && p1 != p0) ++counts[p1];
+    if (p2 >= 0 && p2 != p0 && p2 != p1) ++counts[p2];
   }
 }
 
@@ -72,21 +94,21 @@ std::vector<int32_t> ClusterTree::CountPatches(const LocalFrame& frame,
                                                bool use_clusters) const {
   std::vector<int32_t> counts(hemisphere.size(), 0);
   if (clusters_.empty()) return counts;
-  if (!use_clusters) {
-    CountVertices(clusters_[0], frame, hemisphere, counts);
-    return counts;
-  }
   std::vector<int32_t> open = {0};
   while (!open.empty()) {
     const Cluster& cluster = clusters_[open.back()];
     open.pop_back();
-    const Vec3 center = frame.ToLocal(cluster.center);
-    if (center.z < -cluster.radius * (1 + 1e-9)) continue;  // wholly below the horizon
-    const int pyramid = hemisphere.Locate(center);
-    if (pyramid >= 0 && hemisphere.HoldsBall(pyramid, center, cluster.radius)) {
-      counts[pyramid] += cluster.end - cluster.begin;
-    } else if (cluster.left < 0) {
-      CountVertices(cluster, frame, hemisphere, counts);
+    if (use_clusters) {
+      const Vec3 center = frame.ToLocal(cluster.center);
+      if (center.z < -cluster.radius * (1 + 1e-9)) continue;  // wholly below the horizon
+      const int pyramid = hemisphere.Locate(center);
+      if (pyramid >= 0 && hemisphere.HoldsBall(pyramid, center, cluster.radius)) {
+        counts[pyramid] += cluster.end - cluster.begin;
+        continue;
+      }
+    }
+    if (cluster.left < 0) {
+      CountLeaf(cluster, frame, hemisphere, counts);
     } else {
       open.push_back(cluster.right);
       open.push_back(cluster.left);

@@ -1,9 +1,11 @@
 // Clusters of patches (Chr95), by which the patches inside a pyramid are counted.
 //
 // The patches' Morton order is cut in halves until few are left; every cluster knows a ball around
-// its vertices. A cluster wholly inside one pyramid is counted whole; others are opened.
+// its vertices. A cluster wholly inside one pyramid is counted whole; others are opened, and in the
+// smallest every vertex is located once for all patches that share it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -38,14 +40,20 @@ class ClusterTree {
   struct Cluster {
     Vec3 center;
     double radius = 0;
-    int32_t begin = 0, end = 0;    // counted patches, in Morton order
+    int32_t begin = 0, end = 0;     // counted patches, in Morton order
     int32_t left = -1, right = -1;  // -1: a leaf
+    int32_t first_vertex = 0;       // of a leaf, in vertices_
+    int32_t vertex_count = 0;
   };
-  int32_t Build(int32_t begin, int32_t end);
-  void CountVertices(const Cluster& cluster, const LocalFrame& frame, const Hemisphere& hemisphere,
-                     std::vector<int32_t>& counts) const;
+  using Triangle = std::array<uint8_t, 3>;  // vertex numbers within a leaf
 
-  std::vector<std::array<Vec3, 3>> triangles_;
+  int32_t Build(const std::vector<std::array<Vec3, 3>>& corners, int32_t begin, int32_t end);
+  void FillLeaf(const std::vector<std::array<Vec3, 3>>& corners, Cluster& leaf);
+  void CountLeaf(const Cluster& leaf, const LocalFrame& frame, const Hemisphere& hemisphere,
+                 std::vector<int32_t>& counts) const;
+
+  std::vector<Triangle> triangles_;
+  std::vector<Vec3> vertices_;     // of each leaf, without repetition
   std::vector<Cluster> clusters_;  // clusters_[0] holds all, if there are any
 };
 

@@ -15,15 +15,13 @@ constexpr int64_t kCacheBytes = int64_t{256} << 20;
 
 int64_t MinRaysForDensities(const PatchSet& patches, const PyramidOptions& options) {
   if (options.min_rays > 0) return options.min_rays;
-  // Measured (docs/benchmarks.md): counting opens about 40 pyramids^(1/2) log2(patches) clusters
-  // of 150 ns each, or tests every vertex; a ray takes 250 ns.
-  const double patch_count = std::max<double>(2, patches.size());
+  // Measured (docs/benchmarks.md): counting takes 11 ns a patch of the scene, a ray 250 ns. Kept
+  // densities also serve the passes to come, which shoot about twice as many rays again.
+  constexpr double kCountNsPerPatch = 11, kRayNs = 250, kShareOfTime = 0.1, kVisitsServed = 3;
   const double pyramids = options.initial * std::pow(options.split, options.depth);
-  const double all_ns = 60 * patch_count;
-  const double clustered_ns = 150 * 40 * std::sqrt(pyramids) * std::log2(patch_count) / 4;
-  const double density_ns = options.use_clusters ? std::min(all_ns, clustered_ns) : all_ns;
-  return std::max<int64_t>(static_cast<int64_t>(pyramids),
-                           static_cast<int64_t>(density_ns / 25));
+  const double rays =
+      kCountNsPerPatch * patches.size() / (kRayNs * kShareOfTime * kVisitsServed);
+  return std::llround(std::max(pyramids, rays));
 }
 
 DensityTable::DensityTable(const PatchSet& patches, const PyramidOptions& options)
