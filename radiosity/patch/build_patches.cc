@@ -16,9 +16,9 @@
 namespace lambert {
 namespace {
 
-// Texture samples of a whole scene: about a second of one core. Scenes of many patches get fewer
+// Texture samples of a whole scene: about a third of a second of one core. Scenes of many patches get fewer
 // along each edge (and their patches cover fewer texels).
-constexpr double kTextureSamples = 1e8;
+constexpr double kTextureSamples = 3e7;
 constexpr double kLeastSamplesPerEdge = 4, kMostSamplesPerEdge = 512;
 
 std::string Where(const PatchSource& source) {

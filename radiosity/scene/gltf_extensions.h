@@ -1,0 +1,25 @@
+// Which glTF extensions Lambert knows, and values of theirs read from their JSON text.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "radiosity/scene/unread_features.h"
+
+namespace lambert {
+
+// Refuses a file that asks for a newer glTF than 2.x (SCENE_INVALID), or requires an extension that
+// cannot be left out (EXTENSION_UNSUPPORTED, by name). Extensions that are used, change what is
+// seen and are not read are added to `unread`.
+absl::Status CheckVersionAndExtensions(const tinygltf::Model& model, UnreadFeatures* unread);
+
+// Number `field` of extension `name` in `extensions_json` (an "extensions" object as text), or
+// `absent` where there is none. SceneError naming `where` for a value that is not a number.
+absl::StatusOr<double> ExtensionNumber(const std::string& extensions_json, const std::string& name,
+                                       const std::string& field, double absent,
+                                       const std::string& where);
+
+}  // namespace lambert

@@ -1,0 +1,242 @@
+#include "radiosity/scene/gltf_node.h"
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
+#include "absl/strings/str_cat.h"
+#include "radiosity/core/error.h"
+#include "radiosity/scene/gltf_extensions.h"
+
+namespace lambert {
+namespace {
+
+constexpr char kExportAgain[] = "export the file again";
+
+absl::Status NodeError(int node, const std::string& message) {
+  return SceneError(absl::StrCat("node ", node), message, kExportAgain);
+}
+
+bool IsFinite(const Transform& t) {
+  return lambert::IsFinite(t.x) && lambert::IsFinite(t.y) && lambert::IsFinite(t.z) &&
+         lambert::IsFinite(t.translation);
+}
+
+Transform FromRotation(double x, double y, double z, double w) {
+  return {{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
+          {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
+          {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)},
+          {}};
+}
+
+absl::StatusOr<Transform> FromMatrix(const std::vector<double>& m, int node) {
+  if (m.size() != 16) return NodeError(node, "its matrix has not 16 numbers");
+  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
+    return NodeError(node, "its matrix is not affine: the last row is not 0 0 0 1");
+  }
+  return Transform{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]},
+                   {m[12], m[13], m[14]}};
+}
+
+// Translation * rotation * scale, or the matrix.
+absl::StatusOr<Transform> LocalTransform(const tinygltf::Node& gltf, int node) {
+  if (!gltf.matrix.empty()) return FromMatrix(gltf.matrix, node);
+  const std::vector<double> &t = gltf.translation, &r = gltf.rotation, &s = gltf.scale;
+  if ((!t.empty() && t.size() != 3) || (!r.empty() && r.size() != 4) ||
+      (!s.empty() && s.size() != 3)) {
+    return NodeError(node, "its translation, rotation or scale has a wrong length");
+  }
+  Transform local;
+  if (!r.empty()) {
+    const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
+    if (!(length > 0)) return NodeError(node, "its rotation is zero or not finite");
+    local = FromRotation(r[0] / length, r[1] / length, r[2] / length, r[3] / length);
+  }
+  if (!s.empty()) local = {local.x * s[0], local.y * s[1], local.z * s[2], {}};
+  if (!t.empty()) local.translation = {t[0], t[1], t[2]};
+  return local;
+}
+
+// Checks that the nodes are a forest; then every node is reached at most once from its root.
+absl::Status CheckForest(const tinygltf::Model& model, std::vector<int>* roots) {
+  const int count = static_cast<int>(model.nodes.size());
+  std::vector<int> parent(count, -1);
+  for (int i = 0; i < count; ++i) {
+    for (int child : model.nodes[i].children) {
+      if (child < 0 || child >= count) {
+        return NodeError(i, absl::StrCat("its child ", child, " does not exist"));
+      }
+      if (parent[child] >= 0) return NodeError(child, "it has two parents");
+      parent[child] = i;
+    }
+  }
+  std::vector<int> reached;
+  for (int i = 0; i < count; ++i) {
+    if (parent[i] < 0) reached.push_back(i);
+  }
+  *roots = reached;
+  for (size_t k = 0; k < reached.size(); ++k) {
+    const std::vector<int>& children = model.nodes[reached[k]].children;
+    reached.insert(reached.end(), children.begin(), children.end());
+  }
+  if (static_cast<int>(reached.size()) == count) return absl::OkStatus();
+  // What no root reaches hangs below a cycle.
+  std::sort(reached.begin(), reached.end());
+  int lost = 0;
+  while (lost < static_cast<int>(reached.size()) && reached[lost] == lost) ++lost;
+  return NodeError(lost, "it is inside itself");
+}
+
+// Root nodes of the default scene.
+absl::Status FindRoots(const tinygltf::Model& model, std::vector<int>* roots) {
+  std::vector<int> all_roots;
+  absl::Status status = CheckForest(model, &all_roots);
+  if (!status.ok()) return status;
+  *roots = all_roots;
+  if (model.scenes.empty()) return absl::OkStatus();
+  const int index = std::max(model.defaultScene, 0);
+  if (index >= static_cast<int>(model.scenes.size())) {
+    return SceneError("scene", absl::StrCat("scene ", index, " does not exist"), kExportAgain);
+  }
+  *roots = model.scenes[index].nodes;
+  std::vector<int> sorted = *roots;
+  std::sort(sorted.begin(), sorted.end());
+  for (size_t k = 0; k < sorted.size(); ++k) {
+    if (!std::binary_search(all_roots.begin(), all_roots.end(), sorted[k])) {
+      return SceneError(absl::StrCat("scene ", index),
+                        absl::StrCat("its node ", sorted[k], " does not exist or has a parent"),
+                        kExportAgain);
+    }
+    if (k > 0 && sorted[k] == sorted[k - 1]) {
+      return SceneError(absl::StrCat("scene ", index),
+                        absl::StrCat("it names node ", sorted[k], " twice"), kExportAgain);
+    }
+  }
+  return absl::OkStatus();
+}
+
+// The camera's own axes, orthonormal and right-handed; nullopt where scales of zero left none.
+std::optional<Transform> Orthonormal(const Transform& world) {
+  Transform camera = world;
+  camera.z = Normalized(world.z);
+  camera.x = Normalized(Cross(world.y, camera.z));
+  camera.y = Cross(camera.z, camera.x);
+  if (!IsFinite(camera)) return std::nullopt;
+  return camera;
+}
+
+std::optional<Camera> ReadCamera(const tinygltf::Camera& gltf, const Transform& world) {
+  Camera camera;
+  const std::optional<Transform> axes = Orthonormal(world);
+  if (!axes) return std::nullopt;
+  camera.world = *axes;
+  if (gltf.type == "orthographic") {
+    camera.perspective = false;
+    camera.half_height_m = std::fabs(gltf.orthographic.ymag);
+    camera.aspect = std::fabs(gltf.orthographic.xmag) / camera.half_height_m;
+    if (!(camera.half_height_m > 0) || !(camera.aspect > 0)) return std::nullopt;
+  } else {
+    camera.yfov_rad = gltf.perspective.yfov;
+    camera.aspect = gltf.perspective.aspectRatio;
+    if (!(camera.yfov_rad > 0) || camera.yfov_rad >= std::numbers::pi) return std::nullopt;
+    if (!(camera.aspect >= 0)) camera.aspect = 0;
+  }
+  if (!std::isfinite(camera.aspect) || !std::isfinite(camera.half_height_m)) return std::nullopt;
+  return camera;
+}
+
+// Walks the default scene, parents before children, and collects what its nodes show.
+class NodeWalker {
+ public:
+  NodeWalker(const tinygltf::Model& model, Scene* scene, UnreadFeatures* unread)
+      : model_(model), scene_(scene), unread_(unread) {}
+
+  absl::Status Walk(const std::vector<int>& roots) {
+    std::vector<std::pair<int, Transform>> open;  // node and its parent's world transform
+    for (auto it = roots.rbegin(); it != roots.rend(); ++it) open.push_back({*it, {}});
+    while (!open.empty()) {
+      const auto [node, parent] = open.back();
+      open.pop_back();
+      absl::StatusOr<Transform> local = LocalTransform(model_.nodes[node], node);
+      if (!local.ok()) return local.status();
+      const Transform world = parent * *local;
+      if (!IsFinite(world)) return NodeError(node, "its world transform is not finite");
+      absl::Status status = Show(node, world);
+      if (!status.ok()) return status;
+      for (int child : model_.nodes[node].children) open.push_back({child, world});
+    }
+    std::sort(scene_->instances.begin(), scene_->instances.end(),
+              [](const Instance& a, const Instance& b) { return a.node < b.node; });
+    return absl::OkStatus();
+  }
+
+ private:
+  absl::Status Show(int node, const Transform& world) {
+    const tinygltf::Node& gltf = model_.nodes[node];
+    if (gltf.mesh >= static_cast<int>(model_.meshes.size()) || gltf.mesh < -1) {
+      return NodeError(node, absl::StrCat("its mesh ", gltf.mesh, " does not exist"));
+    }
+    if (gltf.mesh >= 0) {
+      scene_->instances.push_back({node, gltf.mesh, world});
+      if (gltf.skin >= 0) unread_->Add("skins", "node", "shown at rest");
+      if (gltf.extensions.count("EXT_mesh_gpu_instancing") > 0) {
+        unread_->Add("EXT_mesh_gpu_instancing", "node", "shown once");
+      }
+    }
+    absl::Status status = ShowCamera(node, world);
+    return status.ok() ? ShowLight(node, world) : status;
+  }
+
+  absl::Status ShowCamera(int node, const Transform& world) {
+    const tinygltf::Node& gltf = model_.nodes[node];
+    if (gltf.camera == -1) return absl::OkStatus();
+    if (gltf.camera < -1 || gltf.camera >= static_cast<int>(model_.cameras.size())) {
+      return NodeError(node, absl::StrCat("its camera ", gltf.camera, " does not exist"));
+    }
+    std::optional<Camera> camera = ReadCamera(model_.cameras[gltf.camera], world);
+    if (!camera) {
+      unread_->Add("cameras without a usable lens or axes", "camera", "left out");
+      return absl::OkStatus();
+    }
+    camera->name = gltf.name.empty() ? model_.cameras[gltf.camera].name : gltf.name;
+    scene_->cameras.push_back(*std::move(camera));
+    return absl::OkStatus();
+  }
+
+  absl::Status ShowLight(int node, const Transform& world) {
+    const tinygltf::Node& gltf = model_.nodes[node];
+    absl::StatusOr<double> index = ExtensionNumber(
+        gltf.extensions_json_string, "KHR_lights_punctual", "light", -1, absl::StrCat("node ", node));
+    if (!index.ok()) return index.status();
+    if (*index == -1) return absl::OkStatus();
+    if (!(*index >= 0) || *index >= static_cast<double>(model_.lights.size())) {
+      return NodeError(node, absl::StrCat("its light ", *index, " does not exist"));
+    }
+    const tinygltf::Light& light = model_.lights[static_cast<size_t>(*index)];
+    if (light.type != "point") {
+      unread_->Add(light.type + " lights", "node", "left out");
+      return absl::OkStatus();
+    }
+    Rgb color{1, 1, 1};
+    if (light.color.size() == 3) color = {light.color[0], light.color[1], light.color[2]};
+    scene_->point_lights.push_back({gltf.name.empty() ? light.name : gltf.name, world.translation,
+                                    color * light.intensity});
+    return absl::OkStatus();
+  }
+
+  const tinygltf::Model& model_;
+  Scene* scene_;
+  UnreadFeatures* unread_;
+};
+
+}  // namespace
+
+absl::Status ReadNodes(const tinygltf::Model& model, Scene* scene, UnreadFeatures* unread) {
+  std::vector<int> roots;
+  absl::Status status = FindRoots(model, &roots);
+  if (!status.ok()) return status;
+  for (const tinygltf::Node& node : model.nodes) scene->node_names.push_back(node.name);
+  return NodeWalker(model, scene, unread).Walk(roots);
+}
+
+}  // namespace lambert

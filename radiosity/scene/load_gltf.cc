@@ -1,0 +1,147 @@
+#include "radiosity/scene/load_gltf.h"
+
+#include <exception>
+#include <nlohmann/json.hpp>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "radiosity/core/error.h"
+#include "radiosity/scene/gltf_container.h"
+#include "radiosity/scene/gltf_extensions.h"
+#include "radiosity/scene/gltf_image.h"
+#include "radiosity/scene/gltf_material.h"
+#include "radiosity/scene/gltf_mesh.h"
+#include "radiosity/scene/gltf_node.h"
+#include "radiosity/scene/gltf_parse.h"
+#include "radiosity/scene/unread_features.h"
+
+namespace lambert {
+namespace {
+
+absl::Status TooLarge(const std::string& where, const std::string& message) {
+  return MakeError(absl::StatusCode::kInvalidArgument,
+                   {"SCENE_TOO_LARGE", where, message, "give a smaller scene"});
+}
+
+// The same error with the file's name before where it happened.
+absl::Status InFile(const std::string& name, const absl::Status& status) {
+  std::optional<ErrorDetail> detail = GetErrorDetail(status);
+  if (!detail) return status;
+  detail->where = absl::StrCat(name, ", ", detail->where);
+  return MakeError(status.code(), *detail);
+}
+
+absl::Status CheckBytes(const SceneBundle& bundle, const SceneLimits& limits) {
+  uint64_t bytes = bundle.main_bytes.size();
+  for (const auto& [uri, file] : bundle.files) bytes += file.size();
+  if (bytes <= static_cast<uint64_t>(limits.bytes)) return absl::OkStatus();
+  return TooLarge("scene", absl::StrCat(bytes, " bytes, more than ", limits.bytes));
+}
+
+// Reads the meshes that instances show, and refuses more triangles than the limit with instances.
+absl::Status ReadMeshes(const tinygltf::Model& model, const SceneLimits& limits, Scene* scene,
+                        UnreadFeatures* unread) {
+  scene->meshes.resize(model.meshes.size());
+  std::vector<int64_t> triangles(model.meshes.size(), -1);  // -1: not read yet
+  int64_t left = limits.triangles;
+  for (const Instance& instance : scene->instances) {
+    if (triangles[instance.mesh] < 0) {
+      absl::StatusOr<Mesh> mesh = ReadMesh(model, instance.mesh, left, unread);
+      if (!mesh.ok()) return mesh.status();
+      triangles[instance.mesh] = 0;
+      for (const Primitive& primitive : mesh->primitives) {
+        triangles[instance.mesh] += static_cast<int64_t>(primitive.triangles.size());
+      }
+      scene->meshes[instance.mesh] = *std::move(mesh);
+    }
+    left -= triangles[instance.mesh];
+    if (left < 0) {
+      return TooLarge(absl::StrCat("node ", instance.node),
+                      absl::StrCat("the scene has more than ", limits.triangles, " triangles"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+// Materials that a triangle of the scene has.
+std::vector<bool> FindUsedMaterials(const tinygltf::Model& model, const Scene& scene) {
+  std::vector<bool> used(model.materials.size());
+  for (const Mesh& mesh : scene.meshes) {
+    for (const Primitive& primitive : mesh.primitives) {
+      if (primitive.material >= 0 && !primitive.triangles.empty()) used[primitive.material] = true;
+    }
+  }
+  return used;
+}
+
+absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& limits) {
+  absl::Status status = CheckBytes(bundle, limits);
+  if (!status.ok()) return status;
+  absl::StatusOr<absl::string_view> text = FindJsonText(bundle.main_bytes);
+  if (!text.ok()) return text.status();
+  absl::StatusOr<tinygltf::Model> model = ParseModel(bundle);
+  if (!model.ok()) return model.status();
+  Scene scene;
+  UnreadFeatures unread;
+  status = CheckVersionAndExtensions(*model, &unread);
+  if (status.ok()) status = ReadNodes(*model, &scene, &unread);
+  if (status.ok()) status = ReadMeshes(*model, limits, &scene, &unread);
+  if (!status.ok()) return status;
+  TextureLoader textures(*model, limits, &scene.textures);
+  absl::StatusOr<std::vector<Material>> materials =
+      ReadMaterials(*model, FindUsedMaterials(*model, scene), &textures, &unread);
+  if (!materials.ok()) return materials.status();
+  scene.materials = *std::move(materials);
+  if (!model->animations.empty()) unread.Add("animations", "file", "shown at rest");
+  scene.warnings = unread.Warnings();
+  return scene;
+}
+
+absl::StatusOr<std::vector<std::string>> ReadExternalUris(const std::string& main_bytes) {
+  absl::StatusOr<absl::string_view> text = FindJsonText(main_bytes);
+  if (!text.ok()) return text.status();
+  const nlohmann::json gltf = nlohmann::json::parse(text->begin(), text->end(), nullptr, false);
+  if (!gltf.is_object()) {
+    return SceneError("JSON", "it is not a glTF object", "export the file again");
+  }
+  std::vector<std::string> files;
+  for (const char* list : {"buffers", "images"}) {
+    const auto found = gltf.find(list);
+    if (found == gltf.end() || !found->is_array()) continue;
+    for (const nlohmann::json& item : *found) {
+      if (!item.is_object() || !item.contains("uri") || !item["uri"].is_string()) continue;
+      const std::string uri = item["uri"].get<std::string>();
+      if (absl::StartsWith(uri, "data:")) continue;
+      if (!IsSafeRelativeUri(uri)) {
+        return SceneError(list, absl::StrCat("URI \"", uri, "\" is not a file beside the scene"),
+                          "export a GLB with everything inside");
+      }
+      const std::string file = DecodeUri(uri);
+      if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+    }
+  }
+  return files;
+}
+
+}  // namespace
+
+absl::StatusOr<Scene> LoadGltf(const SceneBundle& bundle, const SceneLimits& limits) {
+  // Memory can run out anywhere below; nothing else is expected to throw.
+  try {
+    absl::StatusOr<Scene> scene = ReadScene(bundle, limits);
+    if (scene.ok()) return scene;
+    return InFile(bundle.main_name, scene.status());
+  } catch (const std::exception& exception) {
+    return InFile(bundle.main_name,
+                  TooLarge("scene", absl::StrCat("it cannot be held: ", exception.what())));
+  }
+}
+
+absl::StatusOr<std::vector<std::string>> ListExternalFiles(const std::string& main_name,
+                                                           const std::string& main_bytes) {
+  absl::StatusOr<std::vector<std::string>> files = ReadExternalUris(main_bytes);
+  if (files.ok()) return files;
+  return InFile(main_name, files.status());
+}
+
+}  // namespace lambert
