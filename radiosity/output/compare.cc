@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "radiosity/core/error.h"
+#include "radiosity/solve/flux_ledger.h"
 
 namespace lambert {
 namespace {
@@ -68,20 +69,6 @@ absl::StatusOr<std::vector<PatchIndex>> PairPatches(const PatchTable& table,
        "solve both for the same scene with the same --max-edge and --two-sided"});
 }
 
-// A sum with Neumaier's compensation: measures do not depend on the order of the patches.
-class Sum {
- public:
-  void Add(double value) {
-    const double next = sum_ + value;
-    lost_ += std::abs(sum_) >= std::abs(value) ? (sum_ - next) + value : (value - next) + sum_;
-    sum_ = next;
-  }
-  double value() const { return sum_ + lost_; }
-
- private:
-  double sum_ = 0, lost_ = 0;
-};
-
 // One patch as the measures see it.
 struct Row {
   double area_m2, error, reflected;  // error and reflected: mean of the channels [lm/m2]
@@ -89,7 +76,7 @@ struct Row {
 
 // Area-weighted mean of what the patches reflect; empty where that is nothing.
 std::optional<double> MeanReflected(const std::vector<Row>& rows) {
-  Sum area, reflected;
+  CompensatedSum area, reflected;
   for (const Row& row : rows) {
     area.Add(row.area_m2);
     reflected.Add(row.area_m2 * row.reflected);
@@ -100,13 +87,13 @@ std::optional<double> MeanReflected(const std::vector<Row>& rows) {
 }
 
 double RmsPatch(const std::vector<Row>& rows) {
-  Sum squares;
+  CompensatedSum squares;
   for (const Row& row : rows) squares.Add(row.error * row.error);
   return std::sqrt(squares.value() / static_cast<double>(rows.size()));
 }
 
 double RmsArea(const std::vector<Row>& rows) {
-  Sum area, squares;
+  CompensatedSum area, squares;
   for (const Row& row : rows) {
     area.Add(row.area_m2);
     squares.Add(row.area_m2 * row.error * row.error);
@@ -137,7 +124,7 @@ absl::StatusOr<ErrorMeasures> Compare(const PatchTable& table, const PatchTable&
   const absl::StatusOr<std::vector<PatchIndex>> partner = PairPatches(table, reference);
   if (!partner.ok()) return partner.status();
   std::vector<Row> rows, region;
-  Sum power, reference_power;
+  CompensatedSum power, reference_power;
   for (PatchIndex i = 0; i < table.size(); ++i) {
     const PatchIndex r = (*partner)[i];
     const double area = reference.area_m2[r];

@@ -35,4 +35,16 @@ struct RunRecord {
   std::vector<std::pair<std::string, double>> timings_s;      // what, seconds, in order
 };
 
+// What quantities are called: the solution is photometric unless the file's emission was declared
+// radiometric.
+struct UnitNames {
+  const char* flux;        // "lm" or "W"
+  const char* irradiance;  // "lx" or "W/m2"
+  const char* radiosity;   // "lm/m2" or "W/m2"
+};
+inline UnitNames UnitNamesOf(EmissionUnit unit) {
+  return unit == EmissionUnit::kNit ? UnitNames{"lm", "lx", "lm/m2"}
+                                    : UnitNames{"W", "W/m2", "W/m2"};
+}
+
 }  // namespace lambert

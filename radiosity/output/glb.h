@@ -1,0 +1,21 @@
+// NAME.glb: the lit scene as a model that any viewer shows at once.
+#pragma once
+
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "radiosity/output/picture.h"
+#include "radiosity/patch/patch_set.h"
+
+namespace lambert {
+
+// glTF 2.0 binary: one node and mesh for each node of the source that shows patches, under its name
+// and placed by the patch set's origin; COLOR_0 is the developed radiosity (normalised uint16, linear)
+// under KHR_materials_unlit; _IRRADIANCE is float VEC3 [lx]. Both sides of a two-sided triangle are
+// there, each as its own one-sided triangle. A camera stands where the picture was taken. The extras
+// of the asset record the exposure. RESOURCE_EXHAUSTED (reason OUTPUT_TOO_LARGE) where the file would
+// pass the 4 GiB of its format. Requires: `light` is of these patches.
+absl::StatusOr<std::string> EncodeGlb(const PatchSet& patches, const CornerLight& light,
+                                      const Exposure& exposure, const View& view);
+
+}  // namespace lambert

@@ -1,0 +1,162 @@
+#include "radiosity/output/picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lambert {
+namespace {
+
+constexpr int kSubPixels = 4;              // 4 x 4 rays where neighbouring pixels differ
+constexpr double kVisibleStep = 0.02;      // of the display's range: a smaller one needs no rays
+constexpr Rgb kBackground{0.006, 0.007, 0.008};  // display value: near black, told from true black
+
+struct Sample {
+  PatchIndex patch = kNoPatch;
+  Rgb radiosity, irradiance, std_error, emitted;
+};
+
+// Answers rays of one picture.
+class Painter {
+ public:
+  Painter(const View& view, const PatchSet& patches, const RayScene& scene,
+          const Solution& solution, const CornerLight& light)
+      : view_(view), patches_(patches), scene_(scene), solution_(solution), light_(light) {}
+
+  Sample At(double x, double y) const {
+    const View::Ray ray = view_.RayThrough(x, y);
+    const PictureHit hit = scene_.Cast(ray.origin, ray.direction);
+    if (hit.patch == kNoPatch) return {};
+    const double weights[3] = {1 - hit.u - hit.v, hit.u, hit.v};
+    Sample sample;
+    sample.patch = hit.patch;
+    for (int corner = 0; corner < 3; ++corner) {
+      sample.irradiance =
+          sample.irradiance + light_.Irradiance(hit.patch, corner) * std::max(weights[corner], 0.0);
+    }
+    sample.emitted = patches_.exitance_lm_per_m2[hit.patch];
+    sample.radiosity = sample.emitted + patches_.reflectance[hit.patch] * sample.irradiance;
+    sample.std_error = solution_.std_error_lm_per_m2[hit.patch];
+    return sample;
+  }
+
+ private:
+  const View& view_;
+  const PatchSet& patches_;
+  const RayScene& scene_;
+  const Solution& solution_;
+  const CornerLight& light_;
+};
+
+Rgb Display(const Sample& sample, const Exposure& exposure) {
+  return sample.patch == kNoPatch ? kBackground : Develop(sample.radiosity, exposure);
+}
+
+void SetSize(const View& view, int longer_side, Picture& picture) {
+  const double width = view.aspect >= 1 ? longer_side : longer_side * view.aspect;
+  picture.width = std::max(1, static_cast<int>(std::lround(width)));
+  picture.height = std::max(1, static_cast<int>(std::lround(width / view.aspect)));
+  const size_t pixels = static_cast<size_t>(picture.width) * picture.height;
+  for (std::vector<Rgb>* layer : {&picture.radiosity_lm_per_m2, &picture.irradiance_lx,
+                                  &picture.std_error_lm_per_m2, &picture.display}) {
+    layer->resize(pixels);
+  }
+  picture.patch.resize(pixels, kNoPatch);
+}
+
+// One ray through the middle of every pixel, and the exposure from what they see.
+void DrawMiddles(const Painter& painter, Picture& picture) {
+  std::vector<Rgb> reflected, emitted;
+  std::vector<Sample> samples(picture.patch.size());
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const size_t pixel = static_cast<size_t>(y) * picture.width + x;
+      const Sample& sample = samples[pixel] =
+          painter.At((x + 0.5) / picture.width, (y + 0.5) / picture.height);
+      picture.patch[pixel] = sample.patch;
+      picture.radiosity_lm_per_m2[pixel] = sample.radiosity;
+      picture.irradiance_lx[pixel] = sample.irradiance;
+      picture.std_error_lm_per_m2[pixel] = sample.std_error;
+      reflected.push_back(sample.radiosity - sample.emitted);
+      emitted.push_back(sample.emitted);
+    }
+  }
+  picture.exposure = ChooseExposure(reflected, emitted);
+  for (size_t pixel = 0; pixel < samples.size(); ++pixel) {
+    picture.display[pixel] = Display(samples[pixel], picture.exposure);
+  }
+}
+
+// True where a neighbour shows another value: an edge, a shadow, a steep gradient. Judged as the
+// eye sees it, by sRGB values.
+std::vector<bool> RoughPixels(const Picture& picture) {
+  const int width = picture.width;
+  std::vector<Rgb> seen(picture.display.size());
+  for (size_t pixel = 0; pixel < seen.size(); ++pixel) {
+    for (int channel = 0; channel < 3; ++channel) {
+      seen[pixel][channel] = std::sqrt(picture.display[pixel][channel]);
+    }
+  }
+  std::vector<bool> rough(seen.size(), false);
+  auto compare = [&](size_t a, size_t b) {
+    const Rgb step = seen[a] - seen[b];
+    if (std::max({std::abs(step.r), std::abs(step.g), std::abs(step.b)}) < kVisibleStep) return;
+    rough[a] = rough[b] = true;
+  };
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const size_t pixel = static_cast<size_t>(y) * width + x;
+      if (x + 1 < width) compare(pixel, pixel + 1);
+      if (y + 1 < picture.height) compare(pixel, pixel + width);
+    }
+  }
+  return rough;
+}
+
+// Draws one pixel again with kSubPixels^2 rays.
+void RefinePixel(const Painter& painter, int x, int y, Picture& picture) {
+  constexpr double kShare = 1.0 / (kSubPixels * kSubPixels);
+  Rgb radiosity, irradiance, std_error, display;
+  for (int sub = 0; sub < kSubPixels * kSubPixels; ++sub) {
+    // Columns are shifted from row to row, so that nearly upright edges meet all sub-columns.
+    const int row = sub / kSubPixels, column = sub % kSubPixels;
+    const double shift = (row + 0.5) / kSubPixels;
+    const Sample sample = painter.At((x + (column + shift) / kSubPixels) / picture.width,
+                                     (y + (row + (column + 0.5) / kSubPixels) / kSubPixels) /
+                                         picture.height);
+    radiosity = radiosity + sample.radiosity * kShare;
+    irradiance = irradiance + sample.irradiance * kShare;
+    std_error = std_error + sample.std_error * kShare;
+    display = display + Display(sample, picture.exposure) * kShare;
+  }
+  const size_t pixel = static_cast<size_t>(y) * picture.width + x;
+  picture.radiosity_lm_per_m2[pixel] = radiosity;
+  picture.irradiance_lx[pixel] = irradiance;
+  picture.std_error_lm_per_m2[pixel] = std_error;
+  picture.display[pixel] = display;
+}
+
+}  // namespace
+
+CornerLight MakeCornerLight(const PatchSet& patches, const RayScene& scene,
+                            const std::vector<Rgb>& irradiance_lx) {
+  CornerLight light{FindCornerFans(patches, scene), {}};
+  light.irradiance_lx = AverageOverFans(patches, light.fans, irradiance_lx);
+  return light;
+}
+
+Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& scene,
+                    const Solution& solution, const CornerLight& light, int longer_side) {
+  Picture picture;
+  SetSize(view, longer_side, picture);
+  const Painter painter(view, patches, scene, solution, light);
+  DrawMiddles(painter, picture);
+  const std::vector<bool> rough = RoughPixels(picture);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (rough[static_cast<size_t>(y) * picture.width + x]) RefinePixel(painter, x, y, picture);
+    }
+  }
+  return picture;
+}
+
+}  // namespace lambert

@@ -1,0 +1,15 @@
+// PNG bytes of display pictures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "radiosity/core/rgb.h"
+
+namespace lambert {
+
+// An 8-bit sRGB PNG of `display` (0..1, linear Rec. 709, rows from top to bottom).
+// Requires: display.size() == width * height > 0.
+std::string EncodePng(int width, int height, const std::vector<Rgb>& display);
+
+}  // namespace lambert

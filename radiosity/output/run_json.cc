@@ -1,0 +1,127 @@
+#include "radiosity/output/run_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace lambert {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json RgbJson(Rgb value) { return {value.r, value.g, value.b}; }
+
+Json KnownOrNull(double estimate) { return estimate < 0 ? Json(nullptr) : Json(estimate); }
+
+Json OptionsJson(const SolveOptions& solve, const PatchOptions& patch) {
+  const PyramidOptions& pyramids = solve.shoot.pyramids;
+  return {{"method", MethodName(solve.shoot.method)},
+          {"seed", solve.seed},
+          {"max_error", solve.max_error},
+          {"max_rays", solve.max_rays},
+          {"max_time_s", solve.max_time_s},
+          {"unsent_tolerance", solve.unsent_tolerance},
+          {"max_steps", solve.max_steps},
+          {"max_edge_m", patch.max_edge_m},
+          {"two_sided", patch.two_sided},
+          {"emission_unit", patch.emission_unit == EmissionUnit::kNit ? "nit" : "W/m2/sr"},
+          {"phs_initial", pyramids.initial},
+          {"phs_split", pyramids.split},
+          {"phs_depth", pyramids.depth},
+          {"phs_alpha1", pyramids.alpha1},
+          {"phs_alpha2", pyramids.alpha2},
+          {"phs_sampling", pyramids.sampling == PyramidSampling::kSolidAngle ? "solid_angle"
+                                                                             : "projected_angle"},
+          {"phs_count_black", pyramids.count_black},
+          {"phs_use_clusters", pyramids.use_clusters},
+          {"phs_min_rays", pyramids.min_rays}};
+}
+
+Json PlanJson(const Plan& plan) {
+  Json items = Json::array();
+  for (const PlanItem& item : plan.items) {
+    items.push_back({{"item", item.item},
+                     {"left_out", item.left_out},
+                     {"reason", item.reason},
+                     {"saving", item.saving}});
+  }
+  return {{"patches", plan.patches},
+          {"worker_bytes", plan.worker_bytes},
+          {"first_pass_rays", plan.first_pass_rays},
+          {"items", std::move(items)}};
+}
+
+Json LedgerJson(const Ledger& ledger, const char* unit) {
+  return {{"unit", unit},
+          {"emitted", RgbJson(ledger.emitted)},
+          {"absorbed", RgbJson(ledger.absorbed)},
+          {"escaped", RgbJson(ledger.escaped)},
+          {"lost_at_backs", RgbJson(ledger.lost_at_backs)},
+          {"unsent", RgbJson(ledger.unsent)},
+          {"residual", RgbJson(ledger.residual)}};
+}
+
+Json TotalsJson(const RunRecord& record) {
+  const Progress& progress = record.snapshot.progress;
+  double area = 0;
+  for (double patch_area : record.patches->area_m2) area += patch_area;
+  return {{"patches", record.patches->size()},
+          {"area_m2", area},
+          {"passes", progress.pass},
+          {"rays", progress.rays},
+          {"seconds", progress.seconds},
+          {"cpu_seconds", progress.cpu_seconds},
+          {"unsent_fraction", progress.unsent_fraction},
+          {"estimated_rms_area", KnownOrNull(progress.estimated_rms_area)},
+          {"estimated_rms_patch", KnownOrNull(progress.estimated_rms_patch)},
+          {"workers", record.workers},
+          {"threads", record.threads}};
+}
+
+Json MeasuresJson(const ErrorMeasures& measures) {
+  const auto value = [](std::optional<double> measure) {
+    return measure.has_value() ? Json(*measure) : Json(nullptr);
+  };
+  return {{"rms_area", value(measures.rms_area)},
+          {"rms_patch", value(measures.rms_patch)},
+          {"rms_local", value(measures.rms_local)},
+          {"p95", value(measures.p95)},
+          {"power_bias", value(measures.power_bias)}};
+}
+
+Json PictureJson(const RunRecord& record, const View& view, const Exposure& exposure) {
+  const Vec3 eye = record.patches->origin + view.eye;
+  const Vec3 way = view.forward;
+  return {{"view", view.origin},
+          {"eye_m", {eye.x, eye.y, eye.z}},
+          {"looks_along", {way.x, way.y, way.z}},
+          {"exposure_per_lm_per_m2", exposure.per_lm_per_m2}};
+}
+
+}  // namespace
+
+std::string EncodeRunJson(const RunRecord& record, const View& view, const Exposure& exposure) {
+  Json json;
+  json["name"] = record.name;
+  json["scene_digest"] = record.scene_digest;
+  json["method"] = MethodName(record.plan.options.shoot.method);
+  json["seed"] = record.plan.options.seed;
+  json["options"] = OptionsJson(record.plan.options, record.patch_options);
+  json["stop_reason"] = record.interrupted ? "interrupted" : StopReasonName(record.stop_reason);
+  json["versions"] = Json::object();
+  for (const auto& [what, version] : record.versions) json["versions"][what] = version;
+  json["pins"] = record.unit_version;
+  json["plan"] = PlanJson(record.plan);
+  json["ledger"] = LedgerJson(record.snapshot.solution->ledger,
+                              UnitNamesOf(record.patch_options.emission_unit).flux);
+  json["totals"] = TotalsJson(record);
+  if (record.measures.has_value()) json["measures"] = MeasuresJson(*record.measures);
+  json["timings_s"] = Json::object();
+  for (const auto& [what, seconds] : record.timings_s) json["timings_s"][what] = seconds;
+  json["picture"] = PictureJson(record, view, exposure);
+  json["warnings"] = Json::array();
+  for (const Warning& warning : record.patches->warnings) {
+    json["warnings"].push_back({{"reason", warning.reason}, {"message", warning.message}});
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lambert

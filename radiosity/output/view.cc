@@ -1,0 +1,167 @@
+#include "radiosity/output/view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "radiosity/output/bounds.h"
+
+namespace lambert {
+namespace {
+
+constexpr double kDefaultAspect = 1.5;
+constexpr int kProbeColumns = 24, kProbeRows = 16;  // rays that judge a view
+constexpr double kSeenShare = 0.01;    // of its rays must hit something, or a camera is passed over
+constexpr double kInsideAngle = 62;    // full vertical angle of views from inside [degrees]
+constexpr double kOutsideAngle = 36;   // and from outside
+constexpr double kDimShare = 0.05;     // of the mean radiosity: less counts as unlit
+constexpr double kUnlitWeight = 0.1;   // of area that shows no light
+constexpr double kGrazingCosine = 0.2; // area seen at less is not seen well
+
+double HalfHeight(double full_angle_degrees) {
+  return std::tan(full_angle_degrees / 2 * std::numbers::pi / 180);
+}
+
+View LookAt(Vec3 eye, Vec3 target, double full_angle_degrees) {
+  View view;
+  view.eye = eye;
+  view.forward = Normalized(target - eye);
+  const Vec3 pole = std::abs(view.forward.y) < 0.999 ? Vec3{0, 1, 0} : Vec3{0, 0, -1};
+  view.right = Normalized(Cross(view.forward, pole));
+  view.up = Cross(view.right, view.forward);
+  view.half_height = HalfHeight(full_angle_degrees);
+  view.aspect = kDefaultAspect;
+  return view;
+}
+
+// Views from within the box: its corners and walls, looking over the middle, and a grid of points
+// at eye height that look all around (a box may hold many rooms).
+void AddInsideViews(const Bounds& box, std::vector<View>& views) {
+  const Vec3 size = box.Size();
+  auto at = [&](double x, double y, double z) {
+    return box.low + Vec3{size.x * x, size.y * y, size.z * z};
+  };
+  const Vec3 middle = at(0.5, 0.42, 0.5);
+  for (double height : {0.5, 0.62, 0.8}) {
+    for (double x : {0.04, 0.5, 0.96}) {
+      for (double z : {0.04, 0.5, 0.96}) {
+        if (x == 0.5 && z == 0.5) continue;
+        views.push_back(LookAt(at(x, height, z), middle, kInsideAngle));
+      }
+    }
+  }
+  constexpr int kGrid = 4, kDirections = 8;
+  for (int cell = 0; cell < kGrid * kGrid; ++cell) {
+    const double x = (cell % kGrid + 0.5) / kGrid, z = (cell / kGrid + 0.5) / kGrid;
+    for (int k = 0; k < kDirections; ++k) {
+      const double angle = 2 * std::numbers::pi * (k + 0.5) / kDirections;
+      const Vec3 eye = at(x, 0.6, z);
+      const Vec3 way{std::cos(angle), -0.12, std::sin(angle)};
+      views.push_back(LookAt(eye, eye + way * box.Diagonal(), kInsideAngle));
+    }
+  }
+  for (View& view : views) view.origin = "chosen: from inside";
+}
+
+// Views of the whole box from outside: straight at its sides and from three-quarter angles.
+void AddOutsideViews(const Bounds& box, std::vector<View>& views) {
+  const double distance = box.Diagonal() / 2 / std::sin(kOutsideAngle / 2 * std::numbers::pi / 180);
+  for (double elevation : {0.0, 18.0, 35.0}) {
+    for (double azimuth = 0; azimuth < 360; azimuth += elevation > 0 ? 30 : 90) {
+      const double e = elevation * std::numbers::pi / 180, a = azimuth * std::numbers::pi / 180;
+      const Vec3 way{std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
+      views.push_back(LookAt(box.Center() + way * distance, box.Center(), kOutsideAngle));
+      views.back().origin = "chosen: from outside";
+    }
+  }
+}
+
+struct Sight {
+  double hit_share = 0;  // of the rays
+  double lit_area = 0;   // seen, weighted [m2]
+};
+
+Sight Look(const View& view, const PatchSet& patches, const RayScene& scene,
+           const std::vector<double>& weight) {
+  Sight sight;
+  const double pixel_area = 4 * view.half_height * view.half_height * view.aspect /
+                            (kProbeColumns * kProbeRows);  // at distance 1 along `forward`
+  for (int pixel = 0; pixel < kProbeColumns * kProbeRows; ++pixel) {
+    const View::Ray ray = view.RayThrough((pixel % kProbeColumns + 0.5) / kProbeColumns,
+                                          (pixel / kProbeColumns + 0.5) / kProbeRows);
+    const PictureHit hit = scene.Cast(ray.origin, ray.direction);
+    if (hit.patch == kNoPatch) continue;
+    sight.hit_share += 1.0 / (kProbeColumns * kProbeRows);
+    const Vec3 way = Normalized(ray.direction);
+    const double off_axis = Dot(way, view.forward);
+    const double facing = std::max(-Dot(way, PatchNormal(patches, hit.patch)), kGrazingCosine);
+    const double solid_angle = pixel_area * off_axis * off_axis * off_axis;
+    sight.lit_area +=
+        weight[hit.patch] * solid_angle * hit.distance_m * hit.distance_m / facing;
+  }
+  return sight;
+}
+
+// 1 for patches that show light, kUnlitWeight for the dark.
+std::vector<double> LightWeights(const PatchSet& patches, const std::vector<Rgb>& radiosity) {
+  double flux = 0, area = 0;
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    flux += patches.area_m2[i] * Mean(radiosity[i]);
+    area += patches.area_m2[i];
+  }
+  const double lit = kDimShare * flux / area;
+  std::vector<double> weight(radiosity.size(), 1);
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    if (Mean(radiosity[i]) < lit) weight[i] = kUnlitWeight;
+  }
+  return weight;
+}
+
+}  // namespace
+
+View::Ray View::RayThrough(double x, double y) const {
+  const Vec3 across = right * ((2 * x - 1) * half_height * aspect);
+  const Vec3 along = up * ((1 - 2 * y) * half_height);
+  if (perspective) return {eye, forward + across + along};
+  return {eye + across + along, forward};
+}
+
+View CameraView(const Camera& camera) {
+  View view;
+  view.origin =
+      camera.name.empty() ? "the scene's camera" : "camera '" + camera.name + "' of the scene";
+  view.eye = camera.world.translation;
+  view.right = camera.world.x;
+  view.up = camera.world.y;
+  view.forward = -camera.world.z;
+  view.perspective = camera.perspective;
+  view.half_height = camera.perspective ? std::tan(camera.yfov_rad / 2) : camera.half_height_m;
+  view.aspect = camera.aspect > 0 ? std::clamp(camera.aspect, 0.25, 4.0) : kDefaultAspect;
+  return view;
+}
+
+View ChooseView(const PatchSet& patches, const RayScene& scene,
+                const std::vector<Rgb>& radiosity_lm_per_m2) {
+  const std::vector<double> weight = LightWeights(patches, radiosity_lm_per_m2);
+  for (const Camera& camera : patches.cameras) {
+    View view = CameraView(camera);
+    if (Look(view, patches, scene, weight).hit_share >= kSeenShare) return view;
+  }
+  const Bounds box = BoundsOf(patches);
+  std::vector<View> views;
+  AddInsideViews(box, views);
+  AddOutsideViews(box, views);
+  double best_score = -1;
+  View best = views.back();
+  for (const View& view : views) {
+    const Sight sight = Look(view, patches, scene, weight);
+    const double score = sight.lit_area * sight.hit_share;
+    if (score > best_score) {
+      best_score = score;
+      best = view;
+    }
+  }
+  return best;
+}
+
+}  // namespace lambert

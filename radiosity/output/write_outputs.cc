@@ -1,0 +1,57 @@
+#include "radiosity/output/write_outputs.h"
+
+#include "radiosity/output/exr.h"
+#include "radiosity/output/glb.h"
+#include "radiosity/output/output_file.h"
+#include "radiosity/output/patch_table.h"
+#include "radiosity/output/png.h"
+#include "radiosity/output/report.h"
+#include "radiosity/output/run_json.h"
+
+namespace lambert {
+namespace {
+
+absl::Status WriteIfOk(const std::string& path, const absl::StatusOr<std::string>& bytes) {
+  return bytes.ok() ? WriteOutputFile(path, *bytes) : bytes.status();
+}
+
+absl::Status WritePictures(const std::string& stem, const std::string& folder,
+                           const RunRecord& record, const RayScene& scene) {
+  const PatchSet& patches = *record.patches;
+  const Solution& solution = *record.snapshot.solution;
+  const View view = ChooseView(patches, scene, solution.radiosity_lm_per_m2);
+  const CornerLight light = MakeCornerLight(patches, scene, solution.irradiance_lx);
+  const Picture picture = DrawPicture(view, patches, scene, solution, light);
+  const LuxScale scale = ChooseLuxScale(picture);
+  const ReportPictures pictures{
+      EncodePng(picture.width, picture.height, picture.display),
+      EncodePng(picture.width, picture.height, FalseColorPicture(picture, scale)), scale, view,
+      picture.exposure};
+  absl::Status status = WriteOutputFile(stem + ".png", pictures.png);
+  if (status.ok()) status = WriteIfOk(stem + ".exr", EncodeExr(picture));
+  if (status.ok()) {
+    status = WriteIfOk(stem + ".glb", EncodeGlb(patches, light, picture.exposure, view));
+  }
+  if (status.ok()) {
+    status = WriteOutputFile(folder + "/run.json", EncodeRunJson(record, view, picture.exposure));
+  }
+  if (status.ok()) {
+    status = WriteOutputFile(folder + "/report.html", EncodeReport(record, pictures));
+  }
+  return status;
+}
+
+}  // namespace
+
+absl::Status WriteOutputs(const std::string& folder, const RunRecord& record) {
+  if (absl::Status status = MakeOutputFolder(folder); !status.ok()) return status;
+  // The numbers first: they are what a full disk should leave.
+  absl::Status status = WritePatchTable(folder + "/patches.csv",
+                                        MakePatchTable(*record.patches, *record.snapshot.solution));
+  if (!status.ok()) return status;
+  const absl::StatusOr<std::unique_ptr<RayScene>> scene = RayScene::Create(*record.patches);
+  if (!scene.ok()) return scene.status();
+  return WritePictures(folder + "/" + record.name, folder, record, **scene);
+}
+
+}  // namespace lambert
