@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Runs the tests of radiosity/ in a build that counts calls, and lists every function of radiosity/
+# outside of anonymous namespaces (so: of a header) that no test calls. Ends with 1 where there is
+# one. Uses gcov of the compiler's package; a build folder of its own, build/coverage.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+build=$PWD/build/coverage
+
+cmake --preset coverage >/dev/null
+tests=()
+for room in radiosity/*/; do
+  room=$(basename "$room")
+  if [[ -d tests/$room ]]; then
+    tests+=("tests/$room/all")
+  fi
+done
+ninja -C "$build" -j "$(nproc)" "${tests[@]}" >&2
+find "$build" -name '*.gcda' -delete
+
+for program in "${tests[@]}"; do
+  find "$build/${program%/all}" -maxdepth 1 -type f -executable -print0
+done | xargs -0 -P "$(nproc)" -I{} sh -c '"$1" --gtest_brief=1 >&2 || exit 255' run {}
+
+# gcov prints, for each object file, `Function 'NAME'` and `Lines executed:P% of N`.
+functions() {
+  find "$@" -name '*.gcno' -print0 |
+    xargs -0 gcov --no-output --function-summaries --demangled-names 2>/dev/null |
+    awk '/^Function / { name = substr($0, 11, length($0) - 11); next }
+         /^File /     { name = "" }
+         /^Lines executed:/ && name ~ /^lambert::/ && name !~ /\(anonymous namespace\)/ {
+           print ($0 ~ /executed:0[.]00%/ ? "-" : "+") name; name = "" }'
+}
+# What counts is named by the library's objects; what runs is in the tests' objects too.
+functions "$build/radiosity" >"$build/library.txt"
+functions "$build/tests" >"$build/tests.txt"
+awk -v library="$build/library.txt" '
+  { name = substr($0, 2); if (FILENAME == library) known[name] = 1; if (/^[+]/) called[name] = 1 }
+  END {
+    for (name in known) {
+      ++total
+      if (!(name in called)) { ++missing; print "not called by any test: " name | "sort" }
+    }
+    close("sort")
+    printf "%d of %d public functions of radiosity/ are called by tests\n", total - missing, total
+    exit missing > 0 || total == 0
+  }' "$build/library.txt" "$build/tests.txt"
