@@ -25,8 +25,6 @@ function(lambert_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(lambert_${name} STATIC ${ROOM_SOURCES})
   target_link_libraries(lambert_${name} PUBLIC lambert_flags ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE})
-  # So that scripts/coverage.sh also sees inline functions that nothing calls.
-  target_compile_options(lambert_${name} PRIVATE $<$<CONFIG:Coverage>:-fkeep-inline-functions>)
 endfunction()
 
 # lambert_test(NAME SOURCES ... LIBS ... [LABELS ...]): a GoogleTest program, one ctest entry a test.
@@ -34,5 +32,6 @@ function(lambert_test name)
   cmake_parse_arguments(TEST "" "" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE lambert_flags ${TEST_LIBS} GTest::gtest_main)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 300)
+  gtest_discover_tests(${name} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 300)
 endfunction()

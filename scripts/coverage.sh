@@ -30,8 +30,13 @@ functions() {
          /^Lines executed:/ && name ~ /^lambert::/ && name !~ /\(anonymous namespace\)/ {
            print ($0 ~ /executed:0[.]00%/ ? "-" : "+") name; name = "" }'
 }
-# What counts is named by the library's objects; what runs is in the tests' objects too.
-functions "$build/radiosity" >"$build/library.txt"
+# Inline functions that nothing calls are in no object; a file that includes every header has them.
+rm -rf "$build/headers" && mkdir "$build/headers"
+printf '#include "%s"\n' radiosity/*/*.h |
+  g++ -std=c++20 -march=x86-64-v3 -I. --coverage -fkeep-inline-functions -x c++ -c - \
+    -o "$build/headers/all.o"
+# What counts is named by the library and its headers; what runs is in the tests' objects too.
+functions "$build/radiosity" "$build/headers" >"$build/library.txt"
 functions "$build/tests" >"$build/tests.txt"
 awk -v library="$build/library.txt" '
   { name = substr($0, 2); if (FILENAME == library) known[name] = 1; if (/^[+]/) called[name] = 1 }
