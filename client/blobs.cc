@@ -50,9 +50,8 @@ absl::Status Blobs::Upload(const std::vector<const std::string*>& files,
   for (const v1::Digest& digest : missing) {
     const auto found = by_digest.find(digest.sha256());
     if (found == by_digest.end()) continue;
-    absl::Status status = UploadOne(digest, *found->second, [&](int64_t committed) {
-      on_progress(done + committed, total);
-    });
+    absl::Status status = UploadOne(
+        digest, *found->second, [&](int64_t committed) { on_progress(done + committed, total); });
     if (!status.ok()) return status;
     done += digest.size_bytes();
   }

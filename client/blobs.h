@@ -22,8 +22,8 @@ class Blobs {
  public:
   Blobs(v1::BlobService::StubInterface* stub, Caller* caller) : stub_(stub), caller_(caller) {}
 
-  // Sends those of `files` that the server lacks, in chunks of 1 MiB; an upload that breaks off goes
-  // on where it broke. Bytes that are there already count as done at once.
+  // Sends those of `files` that the server lacks, in chunks of 1 MiB; an upload that breaks off
+  // goes on where it broke. Bytes that are there already count as done at once.
   absl::Status Upload(const std::vector<const std::string*>& files,
                       const UploadProgress& on_progress);
 

@@ -38,8 +38,7 @@ absl::Status Unreachable(const std::string& server, const std::string& message) 
 
 absl::StatusOr<std::shared_ptr<grpc::Channel>> Connect(const std::string& server,
                                                        std::chrono::duration<double> timeout) {
-  auto channel =
-      grpc::CreateCustomChannel(server, grpc::InsecureChannelCredentials(), Arguments());
+  auto channel = grpc::CreateCustomChannel(server, grpc::InsecureChannelCredentials(), Arguments());
   const auto deadline = std::chrono::system_clock::now() +
                         std::chrono::duration_cast<std::chrono::microseconds>(timeout);
   for (auto state = channel->GetState(true); state != GRPC_CHANNEL_READY;

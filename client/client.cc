@@ -181,6 +181,25 @@ absl::StatusOr<std::vector<Worker>> Client::ListWorkers() {
   return workers;
 }
 
+absl::StatusOr<std::vector<Snapshot>> Client::ListSnapshots(const std::string& job) {
+  std::vector<Snapshot> snapshots;
+  v1::ListSnapshotsRequest request;
+  request.set_parent(job);
+  request.set_page_size(kPageSize);
+  do {
+    v1::ListSnapshotsResponse page;
+    absl::Status status = stubs_->caller.Call(job, kReadDeadline, [&](auto& context) {
+      return stubs_->snapshot->ListSnapshots(&context, request, &page);
+    });
+    if (!status.ok()) return status;
+    for (const v1::Snapshot& snapshot : page.snapshots()) {
+      snapshots.push_back({snapshot.version(), FromProto(snapshot.progress()), nullptr});
+    }
+    request.set_page_token(page.next_page_token());
+  } while (!request.page_token().empty());
+  return snapshots;
+}
+
 absl::StatusOr<Job> Client::Watch(const std::string& job, const WatchOptions& options) {
   return WatchJob(*stubs_->snapshot, stubs_->caller, job, options);
 }

@@ -23,28 +23,28 @@ class Channel;
 namespace lambert::client {
 
 struct ClientOptions {
-  std::string server = "this process";               // names the other side in messages
-  std::chrono::duration<double> patience{60};        // how long a server that is away is tried again
+  std::string server = "this process";         // names the other side in messages
+  std::chrono::duration<double> patience{60};  // how long a server that is away is tried again
   // Told when the server is lost and when it is back: one line each. May be called on any thread
   // that calls the client.
   std::function<void(const std::string&)> on_notice = [](const std::string&) {};
 };
 
 struct SubmittedScene {
-  std::string name;                // "scenes/SHA256"
-  std::string digest;              // the SHA256
-  std::vector<Warning> warnings;   // of reading it
+  std::string name;               // "scenes/SHA256"
+  std::string digest;             // the SHA256
+  std::vector<Warning> warnings;  // of reading it
 };
 
 struct PlannedScene {
   Plan plan;
-  std::vector<Warning> warnings;   // of reading and of patching
+  std::vector<Warning> warnings;  // of reading and of patching
 };
 
 // What a watcher wants to hear. Called on the thread that watches, one at a time.
 struct WatchOptions {
-  int64_t last_version = 0;        // of the newest snapshot that is known already
-  bool with_solutions = false;     // true: Snapshot::solution is there, else it is null
+  int64_t last_version = 0;     // of the newest snapshot that is known already
+  bool with_solutions = false;  // true: Snapshot::solution is there, else it is null
   std::function<void(const Progress&)> on_progress = [](const Progress&) {};
   // An error ends the watch, and Watch returns it.
   std::function<absl::Status(const Snapshot&)> on_snapshot = [](const Snapshot&) {
@@ -74,6 +74,8 @@ class Client {
   absl::StatusOr<Job> CancelJob(const std::string& name);
   absl::Status DeleteJob(const std::string& name);
   absl::StatusOr<std::vector<Worker>> ListWorkers();
+  // By version, without solutions: how the error fell.
+  absl::StatusOr<std::vector<Snapshot>> ListSnapshots(const std::string& job);
 
   // Follows a job until it has ended, and returns it as it ended. Attaches again by itself when the
   // server comes back.

@@ -16,7 +16,7 @@ namespace lambert::client {
 
 // A blob on the server.
 struct BlobRef {
-  std::string sha256;      // "" while there is none
+  std::string sha256;  // "" while there is none
   int64_t size_bytes = 0;
 };
 
@@ -29,20 +29,20 @@ inline bool HasEnded(JobState state) {
 }
 
 struct Job {
-  std::string name;                // "solveJobs/ID"
-  std::string scene;               // "scenes/SHA256"
-  std::string scene_name;          // "room.glb"
+  std::string name;        // "solveJobs/ID"
+  std::string scene;       // "scenes/SHA256"
+  std::string scene_name;  // "room.glb"
   JobState state = JobState::kQueued;
   StopReason stop_reason = StopReason::kNone;
   bool reached_goal = false;
-  absl::Status error;              // of a failed job, with its ErrorDetail
+  absl::Status error;  // of a failed job, with its ErrorDetail
   std::vector<Warning> warnings;
   PatchOptions patch_options;
-  SolveOptions solve_options;      // as they were asked for
-  Plan plan;                       // patches == 0: not made yet
+  SolveOptions solve_options;  // as they were asked for
+  Plan plan;                   // patches == 0: not made yet
   BlobRef patch_set;
   Progress progress;
-  int64_t snapshot_version = 0;    // of the newest snapshot; 0: none yet
+  int64_t snapshot_version = 0;  // of the newest snapshot; 0: none yet
   Progress snapshot_progress;
   BlobRef snapshot;
   std::string unit_version;
@@ -50,10 +50,10 @@ struct Job {
 
 struct Worker {
   std::string name;
-  int slots = 0;                   // units that it runs at once
-  int leases = 0;                  // units that it holds now
+  int slots = 0;   // units that it runs at once
+  int leases = 0;  // units that it holds now
   int64_t finished_units = 0;
-  double silence_s = 0;            // since it last reported, seconds
+  double silence_s = 0;  // since it last reported, seconds
 };
 
 }  // namespace lambert::client

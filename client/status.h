@@ -9,8 +9,8 @@
 
 namespace lambert::client {
 
-// Takes where, message and hint from ErrorInfo's metadata where the server gives them; `where` names
-// what the call was about otherwise. Codes are kept.
+// Takes where, message and hint from ErrorInfo's metadata where the server gives them; `where`
+// names what the call was about otherwise. Codes are kept.
 absl::Status FromGrpc(const grpc::Status& status, const std::string& where);
 absl::Status FromRpcStatus(const google::rpc::Status& status, const std::string& where);
 

@@ -33,7 +33,7 @@ class Watcher {
   int64_t version_;
   std::optional<v1::Snapshot> begun_;  // whose payload is coming in
   std::string payload_;
-  std::optional<Job> job_;             // once it has ended
+  std::optional<Job> job_;  // once it has ended
 };
 
 absl::Status Garbled(const std::string& message) {
@@ -111,10 +111,9 @@ absl::StatusOr<Job> WatchJob(v1::SnapshotService::StubInterface& stub, Caller& c
     }
     return reader->Finish();
   };
-  const absl::Status status =
-      caller.Call(job, std::chrono::duration<double>(0), attempt,
-                  "when it is back, go on with: lambert watch " + job + " --server " +
-                      caller.server());
+  const absl::Status status = caller.Call(
+      job, std::chrono::duration<double>(0), attempt,
+      "when it is back, go on with: lambert watch " + job + " --server " + caller.server());
   if (!refused.ok()) return refused;
   std::optional<Job> ended = watcher.TakeJob();
   if (ended) return *std::move(ended);

@@ -1,0 +1,56 @@
+#include "app/measure.h"
+
+#include <charconv>
+#include <utility>
+
+#include "app/exit.h"
+#include "app/settings.h"
+
+namespace lambert::app {
+
+absl::StatusOr<std::set<int>> FindRegions(const std::vector<std::string>& regions,
+                                          const std::vector<std::string>& node_names) {
+  std::set<int> nodes;
+  for (const std::string& region : regions) {
+    bool found = false;
+    for (size_t node = 0; node < node_names.size(); ++node) {
+      if (node_names[node] != region || region.empty()) continue;
+      nodes.insert(static_cast<int>(node));
+      found = true;
+    }
+    if (found) continue;
+    int index = -1;
+    const char* end = region.data() + region.size();
+    const auto [stop, error] = std::from_chars(region.data(), end, index);
+    if (error == std::errc() && stop == end && index >= 0 &&
+        index < static_cast<int>(node_names.size())) {
+      nodes.insert(index);
+      continue;
+    }
+    const std::string nearest = NearestWord(region, node_names);
+    return UsageError("--region", "the scene has no node '" + region + "'",
+                      nearest.empty() ? "give a node's name or its glTF index"
+                                      : "did you mean '" + nearest + "'");
+  }
+  return nodes;
+}
+
+absl::StatusOr<Measurer> Measurer::Create(const std::string& reference_path,
+                                          const std::vector<std::string>& regions) {
+  Measurer measurer;
+  measurer.regions_ = regions;
+  if (reference_path.empty()) return measurer;
+  auto table = ReadPatchTable(reference_path);
+  if (!table.ok()) return table.status();
+  measurer.reference_ = *std::move(table);
+  return measurer;
+}
+
+absl::StatusOr<ErrorMeasures> Measurer::Measure(const PatchSet& patches,
+                                                const Solution& solution) const {
+  auto nodes = FindRegions(regions_, patches.node_names);
+  if (!nodes.ok()) return nodes.status();
+  return Compare(MakePatchTable(patches, solution), *reference_, *nodes);
+}
+
+}  // namespace lambert::app

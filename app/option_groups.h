@@ -1,0 +1,31 @@
+// The options of the subcommands, in groups as `--help` shows them. Only command_line.cc uses this.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "CLI/CLI.hpp"
+#include "app/options.h"
+
+namespace lambert::app {
+
+// What the parser fills: the options, and what is settled only when all sources are known.
+struct Draft {
+  Options options;
+  std::string quality;  // "" or preview, draft, final: a wanted error by name
+};
+
+void AddSceneOptions(CLI::App& command, Draft& draft);    // SCENE, --max-edge, ...
+void AddStopOptions(CLI::App& command, Draft& draft);     // --max-error, --quality, ...
+void AddMethodOptions(CLI::App& command, Draft& draft);   // --method, --seed, --phs-...
+void AddPlaceOptions(CLI::App& command, Draft& draft);    // --workers, --threads
+void AddServerOptions(CLI::App& command, Draft& draft);   // --server, --reconnect
+void AddMeasureOptions(CLI::App& command, Draft& draft);  // --reference, --region
+void AddOutputOption(CLI::App& command, Draft& draft);    // -o
+void AddProgressOption(CLI::App& command, Draft& draft);  // --progress
+void AddJsonOption(CLI::App& command, Draft& draft);      // --json
+
+// The wanted error that a --quality stands for. Requires: one of preview, draft, final.
+double QualityError(const std::string& quality);
+
+}  // namespace lambert::app

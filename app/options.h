@@ -1,0 +1,52 @@
+// What the user asked the `lambert` command to do: flags, environment and lambert.toml, merged.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "radiosity/patch/build_patches.h"
+#include "radiosity/solve/options.h"
+
+namespace lambert::app {
+
+enum class Command {
+  kBake,
+  kPlan,
+  kSubmit,
+  kWatch,
+  kFetch,
+  kCancel,
+  kDelete,
+  kJobs,
+  kWorkers,
+  kCompare,
+};
+
+enum class ProgressMode { kAuto, kBar, kPlain, kJson, kNone };
+
+struct Options {
+  Command command = Command::kBake;
+
+  std::string scene_path;         // bake, plan, submit: a .glb or .gltf file
+  std::string job;                // watch, fetch, cancel, delete: "solveJobs/ID"
+  std::string out_folder;         // bake, fetch
+  std::string compare_path;       // compare: the table that is judged
+  std::string compare_reference;  // compare: the table that it is judged by
+
+  PatchOptions patch;
+  SolveOptions solve{.shoot = {.method = Method::kAuto}};
+
+  std::string server;       // HOST:PORT; "": the whole service in this process
+  double reconnect_s = 60;  // how long a server that has gone is tried again, seconds
+  int workers = 1;          // in this process, > 0
+  int threads = 0;          // of each of those workers; 0: the processor's, shared out
+
+  std::string reference_path;        // a patches.csv to measure the error against; "": none
+  std::vector<std::string> regions;  // nodes of the local error: names or glTF indices
+
+  bool json = false;  // results as JSON
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
+}  // namespace lambert::app

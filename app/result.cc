@@ -1,0 +1,135 @@
+#include "app/result.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "app/measures_text.h"
+#include "app/progress_text.h"
+#include "app/scene_files.h"
+#include "fmt/format.h"
+#include "nlohmann/json.hpp"
+#include "radiosity/output/output_file.h"
+
+namespace lambert::app {
+namespace {
+
+std::vector<std::string> ResultFiles(const RunRecord& record, const std::string& folder) {
+  std::vector<std::string> files;
+  for (const std::string& name :
+       {std::string("report.html"), record.name + ".png", record.name + ".glb",
+        record.name + ".exr", std::string("patches.csv"), std::string("convergence.csv"),
+        std::string("run.json")}) {
+    const auto path = std::filesystem::path(folder) / name;
+    std::error_code error;
+    if (std::filesystem::exists(path, error)) files.push_back(path.string());
+  }
+  return files;
+}
+
+std::string Verdict(const client::Job& job, const RunRecord& record) {
+  const Progress& progress = record.snapshot.progress;
+  const std::string wanted = FormatPercent(progress.wanted_rms_area);
+  if (record.interrupted) return "interrupted: the best so far is kept";
+  if (job.state == client::JobState::kFailed) return "failed: the last good result is kept";
+  if (job.stop_reason == StopReason::kNothingToShoot) return "done: nothing emits, all is dark";
+  if (job.state == client::JobState::kRunning) return "still running: the best so far";
+  if (!job.reached_goal) return "stopped: the budget is spent before the wanted " + wanted;
+  return job.stop_reason == StopReason::kErrorReached ? "done: the wanted error is reached"
+                                                      : "done: the budget is spent";
+}
+
+nlohmann::ordered_json SummaryJson(const client::Job& job, const RunRecord& record,
+                                   const std::vector<std::string>& files) {
+  const Progress& progress = record.snapshot.progress;
+  nlohmann::ordered_json warnings = nlohmann::ordered_json::array();
+  for (const Warning& warning : job.warnings) {
+    warnings.push_back({{"reason", warning.reason}, {"message", warning.message}});
+  }
+  nlohmann::ordered_json summary = {
+      {"job", job.name},
+      {"state", client::JobStateName(job.state)},
+      {"stop_reason", StopReasonName(job.stop_reason)},
+      {"reached_goal", job.reached_goal},
+      {"interrupted", record.interrupted},
+      {"method", MethodName(record.plan.options.shoot.method)},
+      {"patches", record.patches->size()},
+      {"snapshot", record.snapshot.version},
+      {"pass", progress.pass},
+      {"rays", progress.rays},
+      {"seconds", progress.seconds},
+      {"cpu_seconds", progress.cpu_seconds},
+      {"estimated_rms_area", progress.estimated_rms_area < 0
+                                 ? nlohmann::ordered_json(nullptr)
+                                 : nlohmann::ordered_json(progress.estimated_rms_area)},
+      {"wanted_rms_area", progress.wanted_rms_area},
+      {"warnings", warnings},
+      {"files", files}};
+  if (record.measures) summary["measures"] = MeasuresJson(*record.measures);
+  return summary;
+}
+
+}  // namespace
+
+absl::Status TestOutputFolder(const std::string& folder) {
+  if (absl::Status status = MakeOutputFolder(folder); !status.ok()) return status;
+  // Never committed, so it is gone when it goes out of scope.
+  auto probe = OutputFile::Create((std::filesystem::path(folder) / "run.json").string());
+  return probe.status();
+}
+
+absl::StatusOr<RunRecord> CollectRecord(client::Client& client, const client::Job& job,
+                                        std::shared_ptr<const PatchSet> patches) {
+  if (patches == nullptr) {
+    auto fetched = client.FetchPatches(job.patch_set);
+    if (!fetched.ok()) return fetched.status();
+    patches = *std::move(fetched);
+  }
+  auto solution = client.FetchSolution(job.snapshot);
+  if (!solution.ok()) return solution.status();
+  RunRecord record;
+  record.name = SceneStem(job.scene_name);
+  record.scene_digest = job.scene.substr(job.scene.find('/') + 1);
+  record.patches = std::move(patches);
+  record.patch_options = job.patch_options;
+  record.plan = job.plan;
+  record.snapshot = {job.snapshot_version, job.snapshot_progress, *std::move(solution)};
+  record.stop_reason = job.stop_reason;
+  record.interrupted = job.state == client::JobState::kCancelled;
+  record.versions = {{"lambert", LAMBERT_VERSION}};
+  record.unit_version = job.unit_version;
+  return record;
+}
+
+absl::StatusOr<ExitCode> ExitCodeOf(const client::Job& job) {
+  if (job.state == client::JobState::kFailed) return job.error;
+  if (job.state == client::JobState::kCancelled) return ExitCode::kInterrupted;
+  const bool missed = job.solve_options.max_error > 0 && !job.reached_goal &&
+                      job.stop_reason != StopReason::kNothingToShoot;
+  return missed ? ExitCode::kBudgetSpent : ExitCode::kDone;
+}
+
+ConvergenceRow MakeConvergenceRow(const Plan& plan, const Progress& progress) {
+  return {MethodName(plan.options.shoot.method), plan.options.seed, progress, {}};
+}
+
+void PrintSummary(const client::Job& job, const RunRecord& record, const std::string& folder,
+                  bool json) {
+  const std::vector<std::string> files = ResultFiles(record, folder);
+  if (json) {
+    const auto replace = nlohmann::json::error_handler_t::replace;
+    std::printf("%s\n", SummaryJson(job, record, files).dump(2, ' ', false, replace).c_str());
+    return;
+  }
+  const Progress& progress = record.snapshot.progress;
+  std::string facts = progress.estimated_rms_area < 0
+                          ? "error not known yet"
+                          : "estimated error " + FormatPercent(progress.estimated_rms_area);
+  facts += fmt::format(", {} in {}, {} patches, method {}", FormatCount(progress.rays, "rays"),
+                       FormatDuration(progress.seconds), record.patches->size(),
+                       MethodName(record.plan.options.shoot.method));
+  std::printf("%s\n%s\n", Verdict(job, record).c_str(), facts.c_str());
+  if (record.measures) std::fputs(MeasuresText(*record.measures).c_str(), stdout);
+  for (const std::string& file : files) std::printf("  %s\n", file.c_str());
+}
+
+}  // namespace lambert::app

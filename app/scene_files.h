@@ -1,0 +1,19 @@
+// Scene files from this machine's disk, as they travel to a server.
+#pragma once
+
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "radiosity/scene/load_gltf.h"
+
+namespace lambert::app {
+
+// Reads a .glb or .gltf file and the files that it names, which have to lie in its folder or under
+// it. SCENE_FILE_MISSING names the file that cannot be read; SCENE_INVALID, one outside the folder;
+// SCENE_TOO_LARGE, more bytes than SceneLimits allows.
+absl::StatusOr<SceneBundle> ReadSceneBundle(const std::string& path);
+
+// "rooms/office.glb" -> "office": names the files of a result.
+std::string SceneStem(const std::string& path);
+
+}  // namespace lambert::app
