@@ -57,8 +57,11 @@ SphericalTriangle::SphericalTriangle(Vec3 a, Vec3 b, Vec3 c) : a_(a), b_(b), c_(
   c_toward_ = OrthogonalPart(c, a);
   flux_fraction_ =
       (LambertEdge(a, b) + LambertEdge(b, c) + LambertEdge(c, a)) / (2 * std::numbers::pi);
-  max_cosine_ = std::min(
-      1.0, std::max({HighestOnArc(a, b), HighestOnArc(b, c), HighestOnArc(c, a)}));
+  const bool holds_pole = Cross(a, b).z >= 0 && Cross(b, c).z >= 0 && Cross(c, a).z >= 0;
+  max_cosine_ =
+      holds_pole ? 1.0
+                 : std::min(1.0, std::max({HighestOnArc(a, b), HighestOnArc(b, c),
+                                           HighestOnArc(c, a)}));
 }
 
 Vec3 SphericalTriangle::SampleSolidAngle(double xi1, double xi2) const {
