@@ -1,0 +1,120 @@
+#include "radiosity/pyramid/spherical_triangle.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+
+#include "tests/support/sphere_bins.h"
+#include "tests/support/statistics.h"
+
+namespace lambert {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Vec3 FromAngles(double polar, double azimuth) {
+  return {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+          std::cos(polar)};
+}
+
+struct NamedTriangle {
+  const char* name;
+  SphericalTriangle triangle;
+};
+
+// An octant, and what is harder: thin, small, along the horizon, around the pole.
+std::vector<NamedTriangle> Triangles() {
+  const Vec3 pole{0, 0, 1};
+  return {{"octant", {pole, {1, 0, 0}, {0, 1, 0}}},
+          {"third", {pole, FromAngles(kPi / 2, 0), FromAngles(kPi / 2, 2 * kPi / 3)}},
+          {"sliver from the pole", {pole, FromAngles(1.5, 0.2), FromAngles(1.5, 0.21)}},
+          {"thin", {FromAngles(0.3, 0), FromAngles(0.31, 0.02), FromAngles(0.9, 0.7)}},
+          {"along the horizon",
+           {FromAngles(1.5, 0.5), FromAngles(kPi / 2, 0), FromAngles(kPi / 2, 1)}},
+          {"small", {FromAngles(0.8, 1), FromAngles(0.82, 1), FromAngles(0.81, 1.03)}},
+          {"obtuse", {FromAngles(1.2, 0), FromAngles(1.3, 2.9), FromAngles(0.2, 1.5)}},
+          {"around the pole",
+           {FromAngles(0.9, 0), FromAngles(1.1, 2), FromAngles(0.7, 4)}}};
+}
+
+TEST(SinCos, EqualsTheStandardLibraryWithinItsErrorOverTheCircle) {
+  double worst = 0;
+  constexpr int kSteps = 200000;
+  for (int k = -kSteps; k <= kSteps; ++k) {
+    const double x = kPi * k / kSteps;
+    const SineCosine at = SinCos(x);
+    worst = std::max({worst, std::abs(at.sine - std::sin(x)), std::abs(at.cosine - std::cos(x))});
+  }
+  EXPECT_LT(worst, 1e-14);
+  EXPECT_EQ(SinCos(0).sine, 0);
+  EXPECT_EQ(SinCos(0).cosine, 1);
+}
+
+TEST(SphericalTriangle, SolidAngleEqualsAnotherFormula) {
+  for (const auto& [name, t] : Triangles()) {
+    EXPECT_NEAR(t.solid_angle(), SolidAngle(t.a(), t.b(), t.c()), 1e-14) << name;
+  }
+  EXPECT_NEAR(Triangles()[0].triangle.solid_angle(), kPi / 2, 1e-15);
+}
+
+// The quadrature's error falls with the fourth power of the edge of its 1024 pieces: 2^-5 rad or so.
+TEST(SphericalTriangle, FluxFractionEqualsAQuadrature) {
+  for (const auto& [name, t] : Triangles()) {
+    EXPECT_NEAR(t.flux_fraction() / SphereBins::FluxFraction(t.a(), t.b(), t.c()), 1, 2e-6)
+        << name;
+  }
+  EXPECT_NEAR(Triangles()[0].triangle.flux_fraction(), 0.25, 1e-15);
+}
+
+TEST(SphericalTriangle, MaxCosineBoundsEveryDirectionAndIsAttained) {
+  TestRandom random(1);
+  for (const auto& [name, t] : Triangles()) {
+    double highest = 0;
+    for (int k = 0; k < 20000; ++k) {
+      // Weights that often vanish reach the edges, where most maxima are.
+      const double u = std::max(0.0, random.Uniform(-0.5, 1)), v = random.Uniform();
+      const Vec3 d = Normalized(t.a() * (1 - u) + (t.b() * v + t.c() * (1 - v)) * u);
+      const Vec3 e = Normalized(t.c() * (1 - u) + (t.a() * v + t.b() * (1 - v)) * u);
+      const Vec3 edge = Normalized(t.a() * v + t.b() * (1 - v));
+      highest = std::max({highest, d.z, e.z, edge.z});
+    }
+    EXPECT_LE(highest, t.max_cosine() + 1e-15) << name;
+    EXPECT_GE(highest, t.max_cosine() - 1e-4) << name;
+  }
+}
+
+TEST(SphericalTriangle, SamplesAreUnitVectorsInside) {
+  for (const auto& [name, t] : Triangles()) {
+    const SphereBin whole(t);
+    constexpr double kLast = 1 - 0x1p-24;
+    for (double xi1 : {0.0, 0x1p-24, 0.1, 0.5, 0.9, kLast}) {
+      for (double xi2 : {0.0, 0x1p-24, 0.1, 0.5, 0.9, kLast}) {
+        const Vec3 d = t.SampleSolidAngle(xi1, xi2);
+        EXPECT_NEAR(Length(d), 1, 1e-9) << name << " " << xi1 << " " << xi2;
+        EXPECT_GT(whole.Inside(d), -1e-9) << name << " " << xi1 << " " << xi2;
+      }
+    }
+    // xi2 = 0 is the vertex B. A sub-triangle of no area ends on the edge A B, but for the root of a
+    // rounding error in 1 - q^2: 2e-8 or so.
+    EXPECT_NEAR(Length(t.SampleSolidAngle(0.3, 0) - t.b()), 0, 1e-15) << name;
+    const Vec3 on_edge = t.SampleSolidAngle(0, 0.5);
+    EXPECT_NEAR(Dot(on_edge, Normalized(Cross(t.a(), t.b()))), 0, 1e-7) << name;
+  }
+}
+
+TEST(SphericalTriangle, SamplesAreUniformInSolidAngle) {
+  TestRandom random(2);
+  for (const auto& [name, t] : Triangles()) {
+    const SphereBins bins(t, 3);
+    std::vector<int64_t> counts(bins.size());
+    for (int k = 0; k < 40000; ++k) {
+      ++counts[bins.Find(t.SampleSolidAngle(random.Uniform(), random.Uniform()))];
+    }
+    EXPECT_LT(ChiSquared(counts, bins.SolidAngleShares()), ChiSquaredQuantile(bins.size() - 1))
+        << name;
+  }
+}
+
+}  // namespace
+}  // namespace lambert
