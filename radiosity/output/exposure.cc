@@ -8,8 +8,8 @@
 namespace lambert {
 namespace {
 
-constexpr double kMiddleGray = 0.22;    // display value of the geometric mean: sRGB 130
-constexpr double kBrightLimit = 0.85;   // display value that 95 % of the lit picture stay under
+constexpr double kMiddleGray = 0.26;    // display value of the geometric mean: sRGB 140
+constexpr double kBrightLimit = 0.7;    // display value that 95 % of the lit picture stay under
 constexpr double kEmittedLevel = 0.8;   // of the brightest emitter, where nothing reflects
 // Pixels darker than this part of the brightest do not count as lit.
 constexpr double kLitShare = 1e-4;

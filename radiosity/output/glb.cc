@@ -51,12 +51,14 @@ constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;      // glTF bu
 constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;  // accessor.componentType
 constexpr uint16_t kOpaque = 65535;
 
-Vertex MakeVertex(const PatchSet& patches, const CornerLight& light, const Exposure& exposure,
-                  PatchIndex i, int corner) {
+using CornerValues = std::vector<std::array<Rgb, 3>>;
+
+Vertex MakeVertex(const PatchSet& patches, const CornerValues& irradiance_lx,
+                  const Exposure& exposure, PatchIndex i, int corner) {
   Vertex vertex;
   const Vec3 p = patches.corners[i][corner];
   vertex.position = {FloatValue(p.x), FloatValue(p.y), FloatValue(p.z)};
-  const Rgb irradiance = light.Irradiance(i, corner);
+  const Rgb irradiance = irradiance_lx[i][corner];
   const Rgb display =
       Develop(patches.exitance_lm_per_m2[i] + patches.reflectance[i] * irradiance, exposure);
   for (int channel = 0; channel < 3; ++channel) {
@@ -67,7 +69,7 @@ Vertex MakeVertex(const PatchSet& patches, const CornerLight& light, const Expos
   return vertex;
 }
 
-std::map<int32_t, NodeMesh> MakeMeshes(const PatchSet& patches, const CornerLight& light,
+std::map<int32_t, NodeMesh> MakeMeshes(const PatchSet& patches, const CornerValues& irradiance_lx,
                                        const Exposure& exposure) {
   std::map<int32_t, std::vector<PatchIndex>> by_node;
   for (PatchIndex i = 0; i < patches.size(); ++i) by_node[patches.source[i].node].push_back(i);
@@ -77,7 +79,7 @@ std::map<int32_t, NodeMesh> MakeMeshes(const PatchSet& patches, const CornerLigh
     std::unordered_map<Vertex, uint32_t, VertexHash> known;
     for (PatchIndex i : members) {
       for (int corner = 0; corner < 3; ++corner) {
-        const Vertex vertex = MakeVertex(patches, light, exposure, i, corner);
+        const Vertex vertex = MakeVertex(patches, irradiance_lx, exposure, i, corner);
         const auto [found, is_new] =
             known.try_emplace(vertex, static_cast<uint32_t>(mesh.vertices.size()));
         if (is_new) mesh.vertices.push_back(vertex);
@@ -220,10 +222,11 @@ void AddCamera(const View& view, const PatchSet& patches, GlbWriter& writer) {
 
 }  // namespace
 
-absl::StatusOr<std::string> EncodeGlb(const PatchSet& patches, const CornerLight& light,
+absl::StatusOr<std::string> EncodeGlb(const PatchSet& patches,
+                                      const CornerValues& corner_irradiance_lx,
                                       const Exposure& exposure, const View& view) {
   GlbWriter writer;
-  for (const auto& [node, mesh] : MakeMeshes(patches, light, exposure)) {
+  for (const auto& [node, mesh] : MakeMeshes(patches, corner_irradiance_lx, exposure)) {
     const size_t named = static_cast<size_t>(node);
     const std::string name = named < patches.node_names.size() ? patches.node_names[named] : "";
     Json made = {{"mesh", writer.AddMesh(name, mesh)}, {"extras", {{"source_node", node}}}};

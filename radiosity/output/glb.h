@@ -1,10 +1,13 @@
 // NAME.glb: the lit scene as a model that any viewer shows at once.
 #pragma once
 
+#include <array>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
-#include "radiosity/output/picture.h"
+#include "radiosity/output/exposure.h"
+#include "radiosity/output/view.h"
 #include "radiosity/patch/patch_set.h"
 
 namespace lambert {
@@ -14,8 +17,10 @@ namespace lambert {
 // under KHR_materials_unlit; _IRRADIANCE is float VEC3 [lx]. Both sides of a two-sided triangle are
 // there, each as its own one-sided triangle. A camera stands where the picture was taken. The extras
 // of the asset record the exposure. RESOURCE_EXHAUSTED (reason OUTPUT_TOO_LARGE) where the file would
-// pass the 4 GiB of its format. Requires: `light` is of these patches.
-absl::StatusOr<std::string> EncodeGlb(const PatchSet& patches, const CornerLight& light,
+// pass the 4 GiB of its format. Requires: `corner_irradiance_lx` is of
+// these patches.
+absl::StatusOr<std::string> EncodeGlb(const PatchSet& patches,
+                                      const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
                                       const Exposure& exposure, const View& view);
 
 }  // namespace lambert

@@ -19,8 +19,13 @@ struct Sample {
 class Painter {
  public:
   Painter(const View& view, const PatchSet& patches, const RayScene& scene,
-          const Solution& solution, const CornerLight& light)
-      : view_(view), patches_(patches), scene_(scene), solution_(solution), light_(light) {}
+          const Solution& solution,
+          const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx)
+      : view_(view),
+        patches_(patches),
+        scene_(scene),
+        solution_(solution),
+        corner_irradiance_lx_(corner_irradiance_lx) {}
 
   Sample At(double x, double y) const {
     const View::Ray ray = view_.RayThrough(x, y);
@@ -30,8 +35,8 @@ class Painter {
     Sample sample;
     sample.patch = hit.patch;
     for (int corner = 0; corner < 3; ++corner) {
-      sample.irradiance =
-          sample.irradiance + light_.Irradiance(hit.patch, corner) * std::max(weights[corner], 0.0);
+      sample.irradiance = sample.irradiance + corner_irradiance_lx_[hit.patch][corner] *
+                                                  std::max(weights[corner], 0.0);
     }
     sample.emitted = patches_.exitance_lm_per_m2[hit.patch];
     sample.radiosity = sample.emitted + patches_.reflectance[hit.patch] * sample.irradiance;
@@ -44,7 +49,7 @@ class Painter {
   const PatchSet& patches_;
   const RayScene& scene_;
   const Solution& solution_;
-  const CornerLight& light_;
+  const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx_;
 };
 
 Rgb Display(const Sample& sample, const Exposure& exposure) {
@@ -137,18 +142,13 @@ void RefinePixel(const Painter& painter, int x, int y, Picture& picture) {
 
 }  // namespace
 
-CornerLight MakeCornerLight(const PatchSet& patches, const RayScene& scene,
-                            const std::vector<Rgb>& irradiance_lx) {
-  CornerLight light{FindCornerFans(patches, scene), {}};
-  light.irradiance_lx = AverageOverFans(patches, light.fans, irradiance_lx);
-  return light;
-}
-
 Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& scene,
-                    const Solution& solution, const CornerLight& light, int longer_side) {
+                    const Solution& solution,
+                    const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
+                    int longer_side) {
   Picture picture;
   SetSize(view, longer_side, picture);
-  const Painter painter(view, patches, scene, solution, light);
+  const Painter painter(view, patches, scene, solution, corner_irradiance_lx);
   DrawMiddles(painter, picture);
   const std::vector<bool> rough = RoughPixels(picture);
   for (int y = 0; y < picture.height; ++y) {

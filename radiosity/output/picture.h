@@ -1,10 +1,10 @@
 // The solution as a camera sees it, pixel by pixel.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "radiosity/output/exposure.h"
-#include "radiosity/output/smooth.h"
 #include "radiosity/output/view.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/solve/solution.h"
@@ -23,21 +23,12 @@ struct Picture {
   std::vector<PatchIndex> patch;         // at the middle of the pixel, or kNoPatch
 };
 
-// Light at corners: irradiance is smoothed (smooth.h); reflectance and exitance stay the patch's.
-struct CornerLight {
-  CornerFans fans;
-  std::vector<Rgb> irradiance_lx;        // by fan
-
-  Rgb Irradiance(PatchIndex patch, int corner) const {
-    return irradiance_lx[fans.fan[patch][corner]];
-  }
-};
-CornerLight MakeCornerLight(const PatchSet& patches, const RayScene& scene,
-                            const std::vector<Rgb>& irradiance_lx);
-
 // Draws a picture whose longer side has `longer_side` pixels: one ray a pixel, 16 where neighbours
-// differ. The exposure is chosen from the picture itself.
+// differ. Irradiance is interpolated between corners (`corner_irradiance_lx`, from SmoothIrradiance);
+// reflectance and exitance stay the patch's. The exposure is chosen from the picture itself.
 Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& scene,
-                    const Solution& solution, const CornerLight& light, int longer_side = 960);
+                    const Solution& solution,
+                    const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
+                    int longer_side = 960);
 
 }  // namespace lambert

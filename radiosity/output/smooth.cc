@@ -10,14 +10,17 @@
 namespace lambert {
 namespace {
 
-// Height of the ray between two centres over the surface, as a share of its length: under it pass
-// only things too low to cast a visible shadow.
+// Where a patch is looked at near its corner: this part of the way to its centre.
+constexpr double kNearCorner = 0.05;
+// Height of a ray over the surface, as a share of the way from corner to centre: under it pass only
+// things too low to cast a visible shadow.
 constexpr double kLiftShare = 0.02;
 // The same at least, in trace coordinates: well above the float32 rounding of positions.
 constexpr double kLeastLift = 4e-6;
 // Patches whose normals agree to this cosine lie in one plane.
 constexpr double kFlatCosine = 0.9999;
-
+// Under this share of the light on the other side of an obstacle, a side counts as covered.
+constexpr double kCoveredShare = 0.1;
 // Sides that more patches share are left sharp: no surface looks so, and pairs grow as the square.
 constexpr size_t kCrowdedSide = 16;
 
@@ -61,41 +64,65 @@ std::vector<Side> SortedSides(const WeldedCorners& welded) {
   return sides;
 }
 
-// Decides which patches that share a side are neighbours.
-class Neighbourhood {
+// Looks along the surface.
+class Surveyor {
  public:
-  Neighbourhood(const PatchSet& patches, const RayScene& scene)
+  Surveyor(const PatchSet& patches, const RayScene& scene)
       : patches_(patches),
         scene_(scene),
         least_cosine_(std::cos(kSmoothAngle * std::numbers::pi / 180)) {}
 
-  bool Joined(const Side& a, const Side& b) const {
-    if (a.forward == b.forward) return false;
-    const Vec3 normal_a = PatchNormal(patches_, a.patch), normal_b = PatchNormal(patches_, b.patch);
-    const double cosine = Dot(normal_a, normal_b);
-    if (cosine < least_cosine_) return false;
-    const Vec3 center_a = PatchCentroid(patches_, a.patch);
-    const Vec3 center_b = PatchCentroid(patches_, b.patch);
-    const double lift =
-        std::max(kLiftShare * Length(center_b - center_a), kLeastLift / scene_.scale());
-    const Vec3 from = center_a + normal_a * lift, to = center_b + normal_b * lift;
-    // Over a bend the way goes by the middle of the side: a straight one would cut the surface.
+  // True where two sides belong to one smooth surface, whatever stands on it.
+  bool SameSurface(const Side& a, const Side& b) const {
+    return a.forward != b.forward && Bend(a, b) >= least_cosine_;
+  }
+
+  // True where the patches of two sides see each other near the corner `corner_a` of a, an end of its
+  // side. Requires: SameSurface(a, b).
+  bool JoinedAt(const Side& a, int corner_a, const Side& b, int corner_b) const {
+    const Vec3 from = NearCorner(a.patch, corner_a), to = NearCorner(b.patch, corner_b);
+    if (Bend(a, b) > kFlatCosine) return Free(from, to, a.patch, b.patch);
+    // Over a bend the way goes by the side: a straight one would cut the surface.
     const auto& corners = patches_.corners[a.patch];
     const Vec3 middle = (corners[a.from] + corners[(a.from + 1) % 3]) * 0.5;
-    const Vec3 over = middle + Normalized(normal_a + normal_b) * lift;
-    // Rays pass through the backs of one-sided patches, so each way is tried from both its ends.
-    const bool flat = cosine > kFlatCosine;
-    return flat ? Free(from, to, a, b) && Free(to, from, a, b)
-                : Free(from, over, a, b) && Free(over, from, a, b) && Free(over, to, a, b) &&
-                      Free(to, over, a, b);
+    const Vec3 on_side = corners[corner_a] + (middle - corners[corner_a]) * kNearCorner;
+    const Vec3 normal = PatchNormal(patches_, a.patch) + PatchNormal(patches_, b.patch);
+    const Vec3 over = on_side + Normalized(normal) * Lift(a.patch, corner_a);
+    return Free(from, over, a.patch, b.patch) && Free(over, to, a.patch, b.patch);
+  }
+
+  bool CenterSees(PatchIndex i, int corner) const {
+    const Vec3 center =
+        PatchCentroid(patches_, i) + PatchNormal(patches_, i) * Lift(i, corner);
+    return Free(center, NearCorner(i, corner), i, i);
   }
 
  private:
-  bool Free(Vec3 from, Vec3 to, const Side& a, const Side& b) const {
+  double Bend(const Side& a, const Side& b) const {
+    return Dot(PatchNormal(patches_, a.patch), PatchNormal(patches_, b.patch));
+  }
+
+  double Lift(PatchIndex i, int corner) const {
+    const double way = Length(PatchCentroid(patches_, i) - patches_.corners[i][corner]);
+    return std::max(kLiftShare * way, kLeastLift / scene_.scale());
+  }
+
+  Vec3 NearCorner(PatchIndex i, int corner) const {
+    const Vec3 p = patches_.corners[i][corner];
+    return p + (PatchCentroid(patches_, i) - p) * kNearCorner +
+           PatchNormal(patches_, i) * Lift(i, corner);
+  }
+
+  // Rays pass through the backs of one-sided patches, so the way is tried from both its ends.
+  bool Free(Vec3 from, Vec3 to, PatchIndex a, PatchIndex b) const {
+    return FreeAlong(from, to, a, b) && FreeAlong(to, from, a, b);
+  }
+
+  bool FreeAlong(Vec3 from, Vec3 to, PatchIndex a, PatchIndex b) const {
     const Vec3 way = to - from;
     const PictureHit hit = scene_.Cast(from, way);
-    return hit.patch == kNoPatch || hit.distance_m >= Length(way) || hit.patch == a.patch ||
-           hit.patch == b.patch;
+    return hit.patch == kNoPatch || hit.distance_m >= Length(way) || hit.patch == a ||
+           hit.patch == b;
   }
 
   const PatchSet& patches_;
@@ -103,24 +130,69 @@ class Neighbourhood {
   const double least_cosine_;
 };
 
-// Angle of patch i at a corner [rad].
-double CornerAngle(const PatchSet& patches, PatchIndex i, int corner) {
-  const auto& p = patches.corners[i];
-  const Vec3 u = p[(corner + 1) % 3] - p[corner], v = p[(corner + 2) % 3] - p[corner];
-  return std::atan2(Length(Cross(u, v)), Dot(u, v));
+// Joins the corners at both ends of two sides, where the patches see each other there.
+void JoinSides(const Surveyor& surveyor, const Side& a, const Side& b, UnionFind& corners) {
+  if (!surveyor.SameSurface(a, b)) return;
+  // The end of one side is the beginning of the other.
+  const int a_ends[] = {a.from, (a.from + 1) % 3};
+  const int b_ends[] = {(b.from + 1) % 3, b.from};
+  for (int end = 0; end < 2; ++end) {
+    const int32_t corner_a = 3 * a.patch + a_ends[end], corner_b = 3 * b.patch + b_ends[end];
+    if (corners.Find(corner_a) == corners.Find(corner_b)) continue;
+    if (surveyor.JoinedAt(a, a_ends[end], b, b_ends[end])) corners.Join(corner_a, corner_b);
+  }
+}
+
+// Mean of the patches of every fan that see their corner, weighted by area: the variance of a patch's
+// irradiance goes as 1 / area, so slivers and crumbs of a mesh do not speckle the picture.
+struct FanMeans {
+  std::vector<Rgb> mean;
+  std::vector<double> weight;  // 0: no patch speaks for this fan
+};
+
+FanMeans AverageOverFans(const PatchSet& patches, const CornerFans& fans,
+                         const std::vector<Rgb>& values) {
+  FanMeans means{std::vector<Rgb>(fans.fan_count), std::vector<double>(fans.fan_count, 0)};
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    for (int corner = 0; corner < 3; ++corner) {
+      if (fans.cut_off[i][corner]) continue;
+      const int32_t fan = fans.fan[i][corner];
+      means.mean[fan] = means.mean[fan] + values[i] * patches.area_m2[i];
+      means.weight[fan] += patches.area_m2[i];
+    }
+  }
+  for (int32_t fan = 0; fan < fans.fan_count; ++fan) {
+    if (means.weight[fan] > 0) means.mean[fan] = means.mean[fan] / means.weight[fan];
+  }
+  return means;
+}
+
+// Gives a patch that something stands on the light of the side that can be looked at. `own` is the
+// irradiance of the patch as a whole, `corners` holds the means of its fans.
+void TakeTheLitSide(const std::array<bool, 3>& cut_off, Rgb own, std::array<Rgb, 3>& corners) {
+  Rgb beyond;  // mean of what lies behind the obstacle
+  int count = 0;
+  for (int corner = 0; corner < 3; ++corner) {
+    if (!cut_off[corner]) continue;
+    beyond = beyond + corners[corner];
+    ++count;
+  }
+  beyond = beyond / count;
+  for (int corner = 0; corner < 3; ++corner) {
+    if (cut_off[corner] && Mean(corners[corner]) < kCoveredShare * Mean(own)) {
+      corners[corner] = own;
+    } else if (!cut_off[corner] && Mean(own) < kCoveredShare * Mean(beyond)) {
+      corners[corner] = beyond;
+    }
+  }
 }
 
 }  // namespace
 
 CornerFans FindCornerFans(const PatchSet& patches, const RayScene& scene) {
   const std::vector<Side> sides = SortedSides(WeldCorners(patches));
-  const Neighbourhood neighbourhood(patches, scene);
-  UnionFind fans(3 * static_cast<size_t>(patches.size()));
-  auto join = [&](const Side& a, const Side& b) {
-    // The end of one side is the beginning of the other.
-    fans.Join(3 * a.patch + a.from, 3 * b.patch + (b.from + 1) % 3);
-    fans.Join(3 * a.patch + (a.from + 1) % 3, 3 * b.patch + b.from);
-  };
+  const Surveyor surveyor(patches, scene);
+  UnionFind corners(3 * static_cast<size_t>(patches.size()));
   for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     while (end < sides.size() && sides[end].low == sides[begin].low &&
            sides[end].high == sides[begin].high) {
@@ -128,40 +200,39 @@ CornerFans FindCornerFans(const PatchSet& patches, const RayScene& scene) {
     }
     if (end - begin > kCrowdedSide) continue;
     for (size_t a = begin; a < end; ++a) {
-      for (size_t b = a + 1; b < end; ++b) {
-        if (neighbourhood.Joined(sides[a], sides[b])) join(sides[a], sides[b]);
-      }
+      for (size_t b = a + 1; b < end; ++b) JoinSides(surveyor, sides[a], sides[b], corners);
     }
   }
-  CornerFans result;
-  result.fan.resize(patches.corners.size());
+  CornerFans fans;
+  fans.fan.resize(patches.corners.size());
+  fans.cut_off.resize(patches.corners.size());
   std::vector<int32_t> number(3 * patches.corners.size(), -1);
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     for (int corner = 0; corner < 3; ++corner) {
-      int32_t& fan = number[fans.Find(3 * i + corner)];
-      if (fan < 0) fan = result.fan_count++;
-      result.fan[i][corner] = fan;
+      int32_t& fan = number[corners.Find(3 * i + corner)];
+      if (fan < 0) fan = fans.fan_count++;
+      fans.fan[i][corner] = fan;
+      fans.cut_off[i][corner] = !surveyor.CenterSees(i, corner);
     }
   }
-  return result;
+  return fans;
 }
 
-std::vector<Rgb> AverageOverFans(const PatchSet& patches, const CornerFans& fans,
-                                 const std::vector<Rgb>& values) {
-  std::vector<Rgb> sum(fans.fan_count);
-  std::vector<double> weight(fans.fan_count, 0);
+std::vector<std::array<Rgb, 3>> SmoothIrradiance(const PatchSet& patches, const CornerFans& fans,
+                                                 const std::vector<Rgb>& irradiance_lx) {
+  const FanMeans means = AverageOverFans(patches, fans, irradiance_lx);
+  std::vector<std::array<Rgb, 3>> smooth(irradiance_lx.size());
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     for (int corner = 0; corner < 3; ++corner) {
-      const double angle = CornerAngle(patches, i, corner);
       const int32_t fan = fans.fan[i][corner];
-      sum[fan] = sum[fan] + values[i] * angle;
-      weight[fan] += angle;
+      smooth[i][corner] = means.weight[fan] > 0 ? means.mean[fan] : irradiance_lx[i];
+    }
+    const std::array<bool, 3>& cut_off = fans.cut_off[i];
+    if (cut_off[0] || cut_off[1] || cut_off[2]) {
+      TakeTheLitSide(cut_off, irradiance_lx[i], smooth[i]);
     }
   }
-  for (int32_t fan = 0; fan < fans.fan_count; ++fan) {
-    if (weight[fan] > 0) sum[fan] = sum[fan] / weight[fan];
-  }
-  return sum;
+  return smooth;
 }
 
 }  // namespace lambert

@@ -1,11 +1,15 @@
-// Values of patches, carried over to their corners, so that pictures show no facets.
+// Irradiance of patches, carried over to their corners, so that pictures show no facets.
 //
-// Two patches are neighbours where they share an edge, wind it in opposite directions (they show the
-// same side), turn by less than kSmoothAngle, and see each other: a ray just above the surface from
-// one centre to the other is free. A partition that stands on a floor blocks it, with or without
-// vertices of its own in the floor, so light never leaks under it. The value of a corner is the mean
-// over its fan: the patches around that vertex that are connected through neighbours, each weighted
-// by its angle at the vertex.
+// Two patches are neighbours at a corner where they share an edge that ends there, wind it in opposite
+// directions (they show the same side), turn by less than kSmoothAngle, and see each other near the
+// corner: a ray just above the surface is free. The value of a corner is the mean over its fan: the
+// patches around that vertex that are connected through neighbours, each weighted by its area. A
+// partition that stands on a floor, with or without vertices of its own there, parts the fans: light
+// never leaks under it.
+//
+// Furniture often covers a part of a patch. A patch does not speak for a corner that its centre does
+// not see; and where one side of what lies between is dark (the inside of a box that stands on the
+// patch), the whole patch takes the light of the other, the side that can be looked at.
 #pragma once
 
 #include <array>
@@ -21,17 +25,18 @@ namespace lambert {
 // of 18 sides and more reads as a cylinder; the edges of furniture and rooms stay sharp.
 inline constexpr double kSmoothAngle = 20;
 
-// Corners that share one value.
+// Which corners share one value. Depends on the geometry alone.
 struct CornerFans {
   int32_t fan_count = 0;
-  std::vector<std::array<int32_t, 3>> fan;  // by patch and corner: 0 .. fan_count - 1
+  std::vector<std::array<int32_t, 3>> fan;   // by patch and corner: 0 .. fan_count - 1
+  std::vector<std::array<bool, 3>> cut_off;  // the patch's centre does not see this corner
 };
 
 // Requires: `scene` was made of `patches`.
 CornerFans FindCornerFans(const PatchSet& patches, const RayScene& scene);
 
-// Mean of `values` (by patch) over each fan. Requires: fans of these patches.
-std::vector<Rgb> AverageOverFans(const PatchSet& patches, const CornerFans& fans,
-                                 const std::vector<Rgb>& values);
+// Irradiance at the corners of every patch. Requires: fans of these patches; one value a patch.
+std::vector<std::array<Rgb, 3>> SmoothIrradiance(const PatchSet& patches, const CornerFans& fans,
+                                                 const std::vector<Rgb>& irradiance_lx);
 
 }  // namespace lambert

@@ -16,7 +16,10 @@ constexpr double kInsideAngle = 62;    // full vertical angle of views from insi
 constexpr double kOutsideAngle = 36;   // and from outside
 constexpr double kDimShare = 0.05;     // of the mean radiosity: less counts as unlit
 constexpr double kUnlitWeight = 0.1;   // of area that shows no light
-constexpr double kGrazingCosine = 0.2; // area seen at less is not seen well
+constexpr double kThroughWeight = 0.2;  // of what is seen through the backs of one-sided patches
+constexpr double kNearlyAll = 0.9999;   // of a distance: nearer is in between
+constexpr double kGrazingCosine = 0.2;  // area seen at less is not seen well
+constexpr double kMargin = 1.06;        // around the scene in views from outside
 
 double HalfHeight(double full_angle_degrees) {
   return std::tan(full_angle_degrees / 2 * std::numbers::pi / 180);
@@ -63,22 +66,38 @@ void AddInsideViews(const Bounds& box, std::vector<View>& views) {
   for (View& view : views) view.origin = "chosen: from inside";
 }
 
+// How far from the middle of the box `view`, which looks at it, has to stand to see all of it.
+double FittingDistance(const Bounds& box, const View& view) {
+  double distance = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 half = box.Size() * 0.5;
+    const Vec3 p{corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y,
+                 corner & 4 ? half.z : -half.z};
+    const double across = std::abs(Dot(p, view.right)) / (view.half_height * view.aspect);
+    const double along = std::abs(Dot(p, view.up)) / view.half_height;
+    distance = std::max(distance, kMargin * std::max(across, along) - Dot(p, view.forward));
+  }
+  return distance;
+}
+
 // Views of the whole box from outside: straight at its sides and from three-quarter angles.
 void AddOutsideViews(const Bounds& box, std::vector<View>& views) {
-  const double distance = box.Diagonal() / 2 / std::sin(kOutsideAngle / 2 * std::numbers::pi / 180);
   for (double elevation : {0.0, 18.0, 35.0}) {
     for (double azimuth = 0; azimuth < 360; azimuth += elevation > 0 ? 30 : 90) {
       const double e = elevation * std::numbers::pi / 180, a = azimuth * std::numbers::pi / 180;
       const Vec3 way{std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
-      views.push_back(LookAt(box.Center() + way * distance, box.Center(), kOutsideAngle));
-      views.back().origin = "chosen: from outside";
+      View view = LookAt(box.Center() + way, box.Center(), kOutsideAngle);
+      view.eye = box.Center() + way * FittingDistance(box, view);
+      view.origin = "chosen: from outside";
+      views.push_back(view);
     }
   }
 }
 
 struct Sight {
-  double hit_share = 0;  // of the rays
-  double lit_area = 0;   // seen, weighted [m2]
+  double hit_share = 0;   // of the rays
+  double fill_share = 0;  // the same, without what is seen through backs
+  double lit_area = 0;    // seen, weighted [m2]
 };
 
 Sight Look(const View& view, const PatchSet& patches, const RayScene& scene,
@@ -93,11 +112,17 @@ Sight Look(const View& view, const PatchSet& patches, const RayScene& scene,
     if (hit.patch == kNoPatch) continue;
     sight.hit_share += 1.0 / (kProbeColumns * kProbeRows);
     const Vec3 way = Normalized(ray.direction);
+    // A wall that was looked through from its back shows its front to a look the other way.
+    const PictureHit back_look = scene.Cast(ray.origin + way * hit.distance_m, -way);
+    const bool through = back_look.patch != kNoPatch &&
+                         back_look.distance_m < kNearlyAll * hit.distance_m;
+    const double clear = through ? kThroughWeight : 1;
+    sight.fill_share += clear / (kProbeColumns * kProbeRows);
     const double off_axis = Dot(way, view.forward);
     const double facing = std::max(-Dot(way, PatchNormal(patches, hit.patch)), kGrazingCosine);
     const double solid_angle = pixel_area * off_axis * off_axis * off_axis;
     sight.lit_area +=
-        weight[hit.patch] * solid_angle * hit.distance_m * hit.distance_m / facing;
+        clear * weight[hit.patch] * solid_angle * hit.distance_m * hit.distance_m / facing;
   }
   return sight;
 }
@@ -155,7 +180,7 @@ View ChooseView(const PatchSet& patches, const RayScene& scene,
   View best = views.back();
   for (const View& view : views) {
     const Sight sight = Look(view, patches, scene, weight);
-    const double score = sight.lit_area * sight.hit_share;
+    const double score = sight.lit_area * sight.fill_share;
     if (score > best_score) {
       best_score = score;
       best = view;

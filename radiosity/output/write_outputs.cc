@@ -7,6 +7,7 @@
 #include "radiosity/output/png.h"
 #include "radiosity/output/report.h"
 #include "radiosity/output/run_json.h"
+#include "radiosity/output/smooth.h"
 
 namespace lambert {
 namespace {
@@ -20,7 +21,8 @@ absl::Status WritePictures(const std::string& stem, const std::string& folder,
   const PatchSet& patches = *record.patches;
   const Solution& solution = *record.snapshot.solution;
   const View view = ChooseView(patches, scene, solution.radiosity_lm_per_m2);
-  const CornerLight light = MakeCornerLight(patches, scene, solution.irradiance_lx);
+  const std::vector<std::array<Rgb, 3>> light =
+      SmoothIrradiance(patches, FindCornerFans(patches, scene), solution.irradiance_lx);
   const Picture picture = DrawPicture(view, patches, scene, solution, light);
   const LuxScale scale = ChooseLuxScale(picture);
   const ReportPictures pictures{
