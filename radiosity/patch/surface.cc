@@ -39,7 +39,9 @@ absl::StatusOr<std::vector<Surface>> MakeSurfaces(const Scene& scene, bool all_t
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
     absl::Status status = CheckFactor(material.reflectance, i, "reflectance");
-    if (status.ok()) status = CheckFactor(material.luminance, i, "emission");
+    // A Lambertian emitter of luminance L sends M = pi L into its half space.
+    const Rgb exitance_lm_per_m2 = material.luminance * std::numbers::pi;
+    if (status.ok()) status = CheckFactor(exitance_lm_per_m2, i, "emission");
     if (!status.ok()) return status;
     const Rgb rho = material.reflectance;
     Surface surface;
@@ -47,8 +49,7 @@ absl::StatusOr<std::vector<Surface>> MakeSurfaces(const Scene& scene, bool all_t
     if (surface.reflectance != rho) ++clamped;
     surface.reflectance_texture = UsedTexture(scene, material.reflectance_texture, rho);
     surface.reflectance_uv = material.reflectance_uv;
-    // A Lambertian emitter of luminance L sends M = pi L into its half space.
-    surface.exitance_lm_per_m2 = material.luminance * std::numbers::pi;
+    surface.exitance_lm_per_m2 = exitance_lm_per_m2;
     surface.exitance_texture = UsedTexture(scene, material.luminance_texture, material.luminance);
     surface.exitance_uv = material.luminance_uv;
     surface.two_sided = material.two_sided || all_two_sided;

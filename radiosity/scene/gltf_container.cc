@@ -1,5 +1,6 @@
 #include "radiosity/scene/gltf_container.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -17,6 +18,8 @@ constexpr size_t kGlbHeaderBytes = 12, kChunkHeaderBytes = 8;
 
 // glTF itself nests 8 deep; extensions and extras add a few.
 constexpr int kMaxJsonDepth = 100;
+
+constexpr size_t kMaxQuotedBytes = 200;
 
 uint32_t ReadU32(const std::string& bytes, size_t offset) {
   uint32_t value;
@@ -113,6 +116,14 @@ bool IsSafeRelativeUri(const std::string& uri) {
     }
   }
   return true;
+}
+
+std::string Printable(const std::string& text) {
+  std::string printable = text.substr(0, kMaxQuotedBytes);
+  for (char& c : printable) {
+    if (!absl::ascii_isprint(static_cast<unsigned char>(c))) c = absl::ascii_isspace(c) ? ' ' : '?';
+  }
+  return text.size() > kMaxQuotedBytes ? printable + "..." : printable;
 }
 
 }  // namespace lambert

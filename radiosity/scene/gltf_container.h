@@ -23,4 +23,7 @@ std::string DecodeUri(const std::string& uri);
 // no "..", no backslash and no control character, before and after decoding.
 bool IsSafeRelativeUri(const std::string& uri);
 
+// Text of a file as it may stand in a message: one line of printable ASCII, not long.
+std::string Printable(const std::string& text);
+
 }  // namespace lambert

@@ -1,11 +1,11 @@
 #include "radiosity/scene/gltf_extensions.h"
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "radiosity/core/error.h"
+#include "radiosity/scene/gltf_container.h"
 
 namespace lambert {
 namespace {
@@ -54,26 +54,26 @@ bool IsVersion2(const std::string& version) { return absl::StartsWith(version, "
 absl::Status CheckVersionAndExtensions(const tinygltf::Model& model, UnreadFeatures* unread) {
   const tinygltf::Asset& asset = model.asset;
   if (!IsVersion2(asset.version)) {
-    return SceneError("asset", absl::StrCat("its glTF version is \"", asset.version, "\""),
+    return SceneError("asset", absl::StrCat("its glTF version is \"", Printable(asset.version), "\""),
                       "convert the file to glTF 2.0");
   }
   // minVersion is the oldest reader that will do: Lambert is a reader of 2.0.
   if (!asset.minVersion.empty() && asset.minVersion != "2.0") {
-    return SceneError("asset", absl::StrCat("it needs glTF ", asset.minVersion),
+    return SceneError("asset", absl::StrCat("it needs glTF ", Printable(asset.minVersion)),
                       "export the file as glTF 2.0");
   }
   for (const std::string& name : model.extensionsRequired) {
     if (FindKnown(name) == nullptr) {
       return MakeError(absl::StatusCode::kInvalidArgument,
                        {"EXTENSION_UNSUPPORTED", "extensionsRequired",
-                        absl::StrCat("the file requires ", name, ", which is not read"),
+                        absl::StrCat("the file requires ", Printable(name), ", which is not read"),
                         "export it without this extension"});
     }
   }
   for (const std::string& name : model.extensionsUsed) {
     const KnownExtension* known = FindKnown(name);
     if (known == nullptr || known->support == Support::kLeftOut) {
-      unread->Add("extension " + name, "file", "left out");
+      unread->Add("extension " + Printable(name), "file", "left out");
     }
   }
   return absl::OkStatus();

@@ -3,6 +3,7 @@
 #include "absl/strings/str_cat.h"
 #include "radiosity/core/error.h"
 #include "radiosity/scene/gltf_accessor.h"
+#include "radiosity/scene/gltf_container.h"
 #include "radiosity/scene/image_decode.h"
 
 namespace lambert {
@@ -35,7 +36,7 @@ absl::StatusOr<Texture> TextureLoader::Decode(int index) {
     if (!view.ok()) return view.status();
     bytes = *view;
   } else if (bytes.size == 0) {
-    return SceneError(where, absl::StrCat("file \"", image.uri, "\" did not come with the scene"),
+    return SceneError(where, absl::StrCat("file \"", Printable(image.uri), "\" did not come with the scene"),
                       "put it beside the scene, or export a GLB with everything inside");
   }
   absl::StatusOr<ImageSize> size = ReadImageSize(bytes.data, bytes.size, where);

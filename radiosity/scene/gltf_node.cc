@@ -6,7 +6,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "radiosity/core/error.h"
+#include "radiosity/scene/gltf_container.h"
 #include "radiosity/scene/gltf_extensions.h"
+#include "radiosity/scene/gltf_forest.h"
 
 namespace lambert {
 namespace {
@@ -57,62 +59,14 @@ absl::StatusOr<Transform> LocalTransform(const tinygltf::Node& gltf, int node) {
   return local;
 }
 
-// Checks that the nodes are a forest; then every node is reached at most once from its root.
-absl::Status CheckForest(const tinygltf::Model& model, std::vector<int>* roots) {
-  const int count = static_cast<int>(model.nodes.size());
-  std::vector<int> parent(count, -1);
-  for (int i = 0; i < count; ++i) {
-    for (int child : model.nodes[i].children) {
-      if (child < 0 || child >= count) {
-        return NodeError(i, absl::StrCat("its child ", child, " does not exist"));
-      }
-      if (parent[child] >= 0) return NodeError(child, "it has two parents");
-      parent[child] = i;
-    }
-  }
-  std::vector<int> reached;
-  for (int i = 0; i < count; ++i) {
-    if (parent[i] < 0) reached.push_back(i);
-  }
-  *roots = reached;
-  for (size_t k = 0; k < reached.size(); ++k) {
-    const std::vector<int>& children = model.nodes[reached[k]].children;
-    reached.insert(reached.end(), children.begin(), children.end());
-  }
-  if (static_cast<int>(reached.size()) == count) return absl::OkStatus();
-  // What no root reaches hangs below a cycle.
-  std::sort(reached.begin(), reached.end());
-  int lost = 0;
-  while (lost < static_cast<int>(reached.size()) && reached[lost] == lost) ++lost;
-  return NodeError(lost, "it is inside itself");
-}
-
-// Root nodes of the default scene.
-absl::Status FindRoots(const tinygltf::Model& model, std::vector<int>* roots) {
-  std::vector<int> all_roots;
-  absl::Status status = CheckForest(model, &all_roots);
-  if (!status.ok()) return status;
-  *roots = all_roots;
-  if (model.scenes.empty()) return absl::OkStatus();
-  const int index = std::max(model.defaultScene, 0);
-  if (index >= static_cast<int>(model.scenes.size())) {
-    return SceneError("scene", absl::StrCat("scene ", index, " does not exist"), kExportAgain);
-  }
-  *roots = model.scenes[index].nodes;
-  std::vector<int> sorted = *roots;
-  std::sort(sorted.begin(), sorted.end());
-  for (size_t k = 0; k < sorted.size(); ++k) {
-    if (!std::binary_search(all_roots.begin(), all_roots.end(), sorted[k])) {
-      return SceneError(absl::StrCat("scene ", index),
-                        absl::StrCat("its node ", sorted[k], " does not exist or has a parent"),
-                        kExportAgain);
-    }
-    if (k > 0 && sorted[k] == sorted[k - 1]) {
-      return SceneError(absl::StrCat("scene ", index),
-                        absl::StrCat("it names node ", sorted[k], " twice"), kExportAgain);
-    }
-  }
-  return absl::OkStatus();
+// A name of bounded size that is still UTF-8: names go into every report and message.
+std::string ShortName(const std::string& name, UnreadFeatures* unread) {
+  constexpr size_t kMostBytes = 256;
+  if (name.size() <= kMostBytes) return name;
+  unread->Add("names longer than 256 bytes", "name", "cut");
+  size_t end = kMostBytes;
+  while (end > 0 && (name[end] & 0xc0) == 0x80) --end;  // not inside a character
+  return name.substr(0, end);
 }
 
 // The camera's own axes, orthonormal and right-handed; nullopt where scales of zero left none.
@@ -198,7 +152,8 @@ class NodeWalker {
       unread_->Add("cameras without a usable lens or axes", "camera", "left out");
       return absl::OkStatus();
     }
-    camera->name = gltf.name.empty() ? model_.cameras[gltf.camera].name : gltf.name;
+    camera->name =
+        ShortName(gltf.name.empty() ? model_.cameras[gltf.camera].name : gltf.name, unread_);
     scene_->cameras.push_back(*std::move(camera));
     return absl::OkStatus();
   }
@@ -214,13 +169,13 @@ class NodeWalker {
     }
     const tinygltf::Light& light = model_.lights[static_cast<size_t>(*index)];
     if (light.type != "point") {
-      unread_->Add(light.type + " lights", "node", "left out");
+      unread_->Add(Printable(light.type) + " lights", "node", "left out");
       return absl::OkStatus();
     }
     Rgb color{1, 1, 1};
     if (light.color.size() == 3) color = {light.color[0], light.color[1], light.color[2]};
-    scene_->point_lights.push_back({gltf.name.empty() ? light.name : gltf.name, world.translation,
-                                    color * light.intensity});
+    scene_->point_lights.push_back({ShortName(gltf.name.empty() ? light.name : gltf.name, unread_),
+                                    world.translation, color * light.intensity});
     return absl::OkStatus();
   }
 
@@ -235,7 +190,9 @@ absl::Status ReadNodes(const tinygltf::Model& model, Scene* scene, UnreadFeature
   std::vector<int> roots;
   absl::Status status = FindRoots(model, &roots);
   if (!status.ok()) return status;
-  for (const tinygltf::Node& node : model.nodes) scene->node_names.push_back(node.name);
+  for (const tinygltf::Node& node : model.nodes) {
+    scene->node_names.push_back(ShortName(node.name, unread));
+  }
   return NodeWalker(model, scene, unread).Walk(roots);
 }
 

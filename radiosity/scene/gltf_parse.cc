@@ -3,7 +3,7 @@
 #include <exception>
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/str_cat.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_replace.h"
 #include "absl/strings/strip.h"
 #include "radiosity/core/error.h"
@@ -59,12 +59,10 @@ bool KeepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, 
 
 absl::Status ParseFailure(std::string message, const BundleFiles& files) {
   if (!files.missing.empty() && message.find(files.missing) != std::string::npos) {
-    return SceneError("file " + files.missing, "it did not come with the scene",
+    return SceneError("file \"" + Printable(files.missing) + "\"", "it did not come with the scene",
                       "put it beside the scene, or export a GLB with everything inside");
   }
-  message = std::string(absl::StripAsciiWhitespace(message));
-  absl::StrReplaceAll({{"\n", " "}}, &message);
-  if (message.size() > 300) message = message.substr(0, 300) + "...";
+  message = Printable(std::string(absl::StripAsciiWhitespace(message)));
   return SceneError("glTF", message.empty() ? "it cannot be parsed" : message,
                     "check it with a glTF validator, or export it again");
 }

@@ -117,6 +117,17 @@ TEST(BuildPatches, RotatedLinesAreDroppedAndSliversOfOneInAMillionStay) {
   EXPECT_EQ(PatchesOf(scene).size(), 2);
 }
 
+TEST(BuildPatches, ExactCopiesAreDroppedAndBacksOfThemStay) {
+  const Vec3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{1, 1, 0};
+  const PatchSet patches = PatchesOf(Triangles({{a, b, c}, {b, c, a}, {b, d, c}, {a, c, b}}));
+  EXPECT_EQ(patches.size(), 3);
+  EXPECT_TRUE(HasWarning(patches, "DUPLICATE_PATCHES"));
+  std::vector<int> kept;
+  for (const PatchSource& source : patches.source) kept.push_back(source.triangle);
+  std::sort(kept.begin(), kept.end());
+  EXPECT_EQ(kept, (std::vector<int>{0, 2, 3}));
+}
+
 TEST(BuildPatches, TwoSidedTrianglesAreFrontThenBack) {
   Scene scene = MakeFurnace(0.5);
   scene.materials[0].two_sided = true;

@@ -1,0 +1,144 @@
+#include "radiosity/patch/patch_builder.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "absl/strings/str_cat.h"
+#include "radiosity/core/error.h"
+#include "radiosity/patch/duplicates.h"
+#include "radiosity/patch/morton.h"
+#include "radiosity/patch/shape.h"
+#include "radiosity/patch/texture_mean.h"
+
+namespace lambert {
+namespace {
+
+// Texture samples of a whole scene: about a third of a second of one core. Scenes of many patches
+// get fewer along each edge (and their patches cover fewer texels).
+constexpr double kTextureSamples = 3e7;
+constexpr double kLeastSamplesPerEdge = 4, kMostSamplesPerEdge = 512;
+
+int SamplesPerEdge(double expected_patches) {
+  return static_cast<int>(std::clamp(std::sqrt(kTextureSamples / std::max(1.0, expected_patches)),
+                                     kLeastSamplesPerEdge, kMostSamplesPerEdge));
+}
+
+}  // namespace
+
+absl::Status TooManyPatches(int64_t most) {
+  return MakeError(absl::StatusCode::kInvalidArgument,
+                   {"SCENE_TOO_LARGE", "scene", absl::StrCat("more than ", most, " patches"),
+                    "give a larger --max-edge or a smaller scene"});
+}
+
+std::string Where(const PatchSource& source) {
+  return absl::StrCat("node ", source.node, ", mesh ", source.mesh, ", primitive ",
+                      source.primitive, ", triangle ", source.triangle);
+}
+
+PatchBuilder::PatchBuilder(const std::vector<Surface>& surfaces, const PatchOptions& options,
+                           double expected_patches)
+    : surfaces_(surfaces), options_(options), samples_per_edge_(SamplesPerEdge(expected_patches)) {}
+
+absl::Status PatchBuilder::Add(const PlacedTriangle& placed) {
+  if (IsDegenerate(placed.corners, Measure(placed.corners))) {
+    ++degenerate_;
+    return absl::OkStatus();
+  }
+  pieces_.clear();
+  SplitTriangle(placed.corners, options_.max_edge_m, &pieces_);
+  for (const SplitPiece& piece : pieces_) {
+    absl::Status status = AddPiece(placed, piece);
+    if (!status.ok()) return status;
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<Rgb> PatchBuilder::Mean(const PlacedTriangle& placed, const SplitPiece& piece,
+                                       const Texture* texture, int uv_set) const {
+  if (texture == nullptr) return Rgb{1, 1, 1};
+  const auto& coordinates = placed.primitive->uv[uv_set];
+  if (coordinates.empty()) {
+    return SceneError(Where(placed.source),
+                      absl::StrCat("its material has a texture, but it has no TEXCOORD_", uv_set),
+                      "export texture coordinates, or take the texture off the material");
+  }
+  std::array<Uv, 3> uv;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 w = piece[k].barycentric;
+    for (int axis = 0; axis < 2; ++axis) {
+      uv[k][axis] = w.x * coordinates[placed.vertices[0]][axis] +
+                    w.y * coordinates[placed.vertices[1]][axis] +
+                    w.z * coordinates[placed.vertices[2]][axis];
+      if (!std::isfinite(uv[k][axis])) {
+        return SceneError(Where(placed.source), "a texture coordinate is not finite",
+                          "export the file again");
+      }
+    }
+  }
+  return TextureMean(*texture, uv, samples_per_edge_);
+}
+
+absl::Status PatchBuilder::AddPiece(const PlacedTriangle& placed, const SplitPiece& piece) {
+  const std::array<Vec3, 3> corners = {piece[0].position, piece[1].position, piece[2].position};
+  const double area_m2 = Measure(corners).area_m2;
+  if (!(area_m2 > 0)) return absl::OkStatus();
+  const Surface& surface = surfaces_[placed.primitive->material + 1];
+  patches_ += surface.two_sided ? 2 : 1;
+  if (patches_ > options_.max_patches) return TooManyPatches(options_.max_patches);
+  absl::StatusOr<Rgb> reflectance =
+      Mean(placed, piece, surface.reflectance_texture, surface.reflectance_uv);
+  if (!reflectance.ok()) return reflectance.status();
+  absl::StatusOr<Rgb> exitance =
+      Mean(placed, piece, surface.exitance_texture, surface.exitance_uv);
+  if (!exitance.ok()) return exitance.status();
+  fronts_.corners.push_back(corners);
+  fronts_.area_m2.push_back(area_m2);
+  fronts_.reflectance.push_back(surface.reflectance * *reflectance);
+  fronts_.exitance_lm_per_m2.push_back(surface.exitance_lm_per_m2 * *exitance);
+  fronts_.twin.push_back(surface.two_sided ? 0 : kNoPatch);
+  fronts_.source.push_back(placed.source);
+  return absl::OkStatus();
+}
+
+void PatchBuilder::Append(PatchIndex front, PatchSet* sorted) const {
+  const bool two_sided = fronts_.twin[front] != kNoPatch;
+  const PatchIndex first = sorted->size();
+  const auto& [a, b, c] = fronts_.corners[front];
+  for (int back = 0; back < (two_sided ? 2 : 1); ++back) {
+    sorted->corners.push_back(back ? std::array{a, c, b} : std::array{a, b, c});
+    sorted->area_m2.push_back(fronts_.area_m2[front]);
+    sorted->reflectance.push_back(fronts_.reflectance[front]);
+    sorted->exitance_lm_per_m2.push_back(fronts_.exitance_lm_per_m2[front]);
+    sorted->twin.push_back(two_sided ? first + 1 - back : kNoPatch);
+    sorted->is_back.push_back(static_cast<uint8_t>(back));
+    sorted->source.push_back(fronts_.source[front]);
+  }
+}
+
+PatchSet PatchBuilder::Finish() {
+  std::vector<Vec3> centroids(fronts_.size());
+  for (PatchIndex i = 0; i < fronts_.size(); ++i) centroids[i] = PatchCentroid(fronts_, i);
+  const std::vector<uint64_t> codes = MortonCodes(centroids);
+  std::vector<PatchIndex> order(fronts_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&codes](PatchIndex a, PatchIndex b) { return codes[a] < codes[b]; });
+  const int64_t duplicates = RemoveDuplicates(fronts_.corners, codes, &order);
+
+  PatchSet sorted;
+  for (PatchIndex front : order) Append(front, &sorted);
+  fronts_ = {};
+  if (degenerate_ > 0) {
+    sorted.warnings.push_back(
+        {"ZERO_AREA_PATCHES", absl::StrCat(degenerate_, " triangle(s) without area left out")});
+  }
+  if (duplicates > 0) {
+    sorted.warnings.push_back(
+        {"DUPLICATE_PATCHES",
+         absl::StrCat(duplicates, " patch(es) that lie exactly on another one left out")});
+  }
+  return sorted;
+}
+
+}  // namespace lambert

@@ -1,0 +1,55 @@
+// Placed triangles in, sorted patches out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "radiosity/patch/build_patches.h"
+#include "radiosity/patch/place.h"
+#include "radiosity/patch/split.h"
+#include "radiosity/patch/surface.h"
+
+namespace lambert {
+
+// SCENE_TOO_LARGE: more than `most` patches.
+absl::Status TooManyPatches(int64_t most);
+
+// "node 1, mesh 2, primitive 0, triangle 7".
+std::string Where(const PatchSource& source);
+
+// Collects the front sides of triangles in the order of the scene, then makes the sorted set.
+class PatchBuilder {
+ public:
+  // `expected_patches`: at least about how many there will be; textures are sampled the finer, the
+  // fewer. The surfaces and options must outlive the builder.
+  PatchBuilder(const std::vector<Surface>& surfaces, const PatchOptions& options,
+               double expected_patches);
+
+  // Splits one triangle and averages its textures. Without area it is only counted. SceneError for
+  // texture coordinates that are missing or not finite; SCENE_TOO_LARGE.
+  absl::Status Add(const PlacedTriangle& placed);
+
+  // Corners, surfaces, twins and sources of all patches in Morton order, and warnings
+  // ZERO_AREA_PATCHES and DUPLICATE_PATCHES. The builder is used up.
+  PatchSet Finish();
+
+  int64_t degenerate() const { return degenerate_; }
+
+ private:
+  absl::Status AddPiece(const PlacedTriangle& placed, const SplitPiece& piece);
+  absl::StatusOr<Rgb> Mean(const PlacedTriangle& placed, const SplitPiece& piece,
+                           const Texture* texture, int uv_set) const;
+  // Copies front `front`, and its back where it is two-sided, to the end of `sorted`.
+  void Append(PatchIndex front, PatchSet* sorted) const;
+
+  const std::vector<Surface>& surfaces_;
+  const PatchOptions& options_;
+  const int samples_per_edge_;
+  std::vector<SplitPiece> pieces_;  // of the triangle in hand
+  PatchSet fronts_;                 // twin: kNoPatch, or 0 where there is a back to make
+  int64_t patches_ = 0;             // backs included
+  int64_t degenerate_ = 0;
+};
+
+}  // namespace lambert
