@@ -1,0 +1,86 @@
+#include "client/convert.h"
+
+#include "gtest/gtest.h"
+
+namespace lambert::client {
+namespace {
+
+TEST(Convert, OptionsComeBackAsTheyWent) {
+  PatchOptions patch{.max_edge_m = 0.25,
+                     .two_sided = true,
+                     .emission_unit = EmissionUnit::kWattPerM2PerSr,
+                     .max_patches = 12345};
+  SolveOptions solve;
+  solve.shoot.method = Method::kPhs;
+  solve.shoot.pyramids = {.initial = 7,
+                          .split = 3,
+                          .depth = 1,
+                          .alpha1 = 0.25,
+                          .alpha2 = 0,
+                          .sampling = PyramidSampling::kSolidAngle,
+                          .count_black = true,
+                          .use_clusters = false,
+                          .min_rays = 9};
+  solve.seed = 18446744073709551615u;
+  solve.max_error = 0.02;
+  solve.max_rays = int64_t{1} << 40;
+  solve.max_time_s = 12.5;
+  solve.unsent_tolerance = 1e-4;
+  solve.max_steps = 77;
+
+  PatchOptions patch_back;
+  SolveOptions solve_back;
+  FromProto(ToProto(patch, solve), patch_back, solve_back);
+  EXPECT_EQ(patch_back.max_edge_m, 0.25);
+  EXPECT_TRUE(patch_back.two_sided);
+  EXPECT_EQ(patch_back.emission_unit, EmissionUnit::kWattPerM2PerSr);
+  EXPECT_EQ(patch_back.max_patches, 12345);
+  const PyramidOptions& pyramids = solve_back.shoot.pyramids;
+  EXPECT_EQ(solve_back.shoot.method, Method::kPhs);
+  EXPECT_EQ(pyramids.initial, 7);
+  EXPECT_EQ(pyramids.split, 3);
+  EXPECT_EQ(pyramids.depth, 1);
+  EXPECT_EQ(pyramids.alpha1, 0.25);
+  EXPECT_EQ(pyramids.alpha2, 0);
+  EXPECT_EQ(pyramids.sampling, PyramidSampling::kSolidAngle);
+  EXPECT_TRUE(pyramids.count_black);
+  EXPECT_FALSE(pyramids.use_clusters);
+  EXPECT_EQ(pyramids.min_rays, 9);
+  EXPECT_EQ(solve_back.seed, solve.seed);
+  EXPECT_EQ(solve_back.max_error, solve.max_error);
+  EXPECT_EQ(solve_back.max_rays, solve.max_rays);
+  EXPECT_EQ(solve_back.max_time_s, solve.max_time_s);
+  EXPECT_EQ(solve_back.unsent_tolerance, solve.unsent_tolerance);
+  EXPECT_EQ(solve_back.max_steps, solve.max_steps);
+}
+
+TEST(Convert, AbsentFieldsKeepTheirDefaults) {
+  PatchOptions patch;
+  SolveOptions solve;
+  FromProto(v1::SolveSpec(), patch, solve);
+  EXPECT_EQ(patch.max_patches, PatchOptions().max_patches);
+  EXPECT_EQ(solve.seed, SolveOptions().seed);
+  EXPECT_EQ(solve.shoot.pyramids.depth, PyramidOptions().depth);
+  EXPECT_EQ(solve.unsent_tolerance, SolveOptions().unsent_tolerance);
+}
+
+TEST(Convert, AFailedJobCarriesItsErrorAndItsLastResult) {
+  v1::SolveJob job;
+  job.set_name("solveJobs/a");
+  job.set_state(v1::SolveJob::STATE_FAILED);
+  job.mutable_error()->set_code(8);
+  job.mutable_error()->set_message("the disk is full");
+  job.mutable_latest_snapshot()->set_version(3);
+  job.mutable_latest_snapshot()->mutable_progress()->set_ray_count(1000);
+  job.mutable_latest_snapshot()->mutable_payload_digest()->set_size_bytes(72);
+  const Job result = FromProto(job);
+  EXPECT_TRUE(HasEnded(result.state));
+  EXPECT_EQ(result.error.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(result.snapshot_version, 3);
+  EXPECT_EQ(result.snapshot_progress.rays, 1000);
+  EXPECT_EQ(result.snapshot.size_bytes, 72);
+  EXPECT_EQ(result.progress.unsent_fraction, 0);
+}
+
+}  // namespace
+}  // namespace lambert::client
