@@ -25,7 +25,7 @@ absl::Status SolveOptions::Validate() const {
     return FieldError("max-time", "it is negative or not finite", "use seconds, or 0 for no budget");
   }
   if (!(unsent_tolerance >= 0) || !(unsent_tolerance < 1)) {
-    return FieldError("unsent-tolerance", "it is not in 0..1", "use 1e-6");
+    return FieldError("unsent-tolerance", "it is not in 0..1", "use 1e-9");
   }
   if (max_steps < 1) return FieldError("max-steps", "it is under 1", "use 1000000");
   return shoot.Validate();

@@ -1,0 +1,88 @@
+// PHS, PMCR and a plain gather must agree patch by patch: mean z^2 near 1.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "radiosity/scene/load_gltf.h"
+#include "tests/analytic/gather.h"
+#include "tests/analytic/seeds.h"
+#include "tests/support/scenes.h"
+
+namespace lambert {
+namespace {
+
+constexpr int kMinHits = 400;  // over all seeds: enough for a mean that is nearly normal
+
+// Mean over the seeds and its standard error, by patch; red channel.
+struct ByPatch {
+  std::vector<double> mean, std_error;
+  std::vector<int64_t> hits;
+};
+
+ByPatch Summarize(const PatchSet& patches, const std::vector<Solution>& solutions) {
+  ByPatch result;
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    const Estimate b =
+        Over(solutions, [&](const Solution& s) { return s.radiosity_lm_per_m2[i].r; });
+    result.mean.push_back(b.mean);
+    result.std_error.push_back(b.std_error);
+    int64_t hits = 0;
+    for (const Solution& s : solutions) hits += s.hits[i];
+    result.hits.push_back(hits);
+  }
+  return result;
+}
+
+// Mean z^2 over the patches with enough hits in both.
+void ExpectAgreement(const ByPatch& a, const ByPatch& b, const char* what) {
+  double z2 = 0;
+  int count = 0;
+  for (size_t i = 0; i < a.mean.size(); ++i) {
+    const double variance = a.std_error[i] * a.std_error[i] + b.std_error[i] * b.std_error[i];
+    if (std::min(a.hits[i], b.hits[i]) < kMinHits || variance == 0) continue;
+    z2 += (a.mean[i] - b.mean[i]) * (a.mean[i] - b.mean[i]) / variance;
+    ++count;
+  }
+  ASSERT_GT(count, static_cast<int>(a.mean.size()) / 2) << what;
+  // Two means over 16 seeds: Student's t with 15 to 30 degrees of freedom, variance 1.07 to 1.15.
+  // Neighbours share the error of the light that they see: the mean z^2 spreads more than
+  // sqrt(2 / count), which 20 % allows for.
+  EXPECT_NEAR(z2 / count, 1.1, 0.2) << what << ", " << count << " patches";
+}
+
+void ExpectAllAgree(const PatchSet& patches, int walks, int64_t rays) {
+  const ByPatch pmcr =
+      Summarize(patches, SolveSeeds(patches, WithRays(Method::kPmcr, rays), kSeeds));
+  const ByPatch phs = Summarize(patches, SolveSeeds(patches, WithRays(Method::kPhs, rays), kSeeds));
+  SolveOptions paper = WithRays(Method::kPhs, rays);
+  paper.shoot.pyramids.sampling = PyramidSampling::kSolidAngle;
+  paper.shoot.pyramids.split = 3;
+  paper.shoot.pyramids.depth = 1;
+  const ByPatch phs12 = Summarize(patches, SolveSeeds(patches, paper, kSeeds));
+  Gathered walked = GatherByWalks(patches, walks, 12345);
+  const ByPatch gather{std::move(walked.radiosity), std::move(walked.std_error),
+                       std::vector<int64_t>(patches.size(), kMinHits)};
+  ExpectAgreement(pmcr, phs, "pmcr and phs");
+  ExpectAgreement(pmcr, phs12, "pmcr and phs with 12 pyramids, weighted rays");
+  ExpectAgreement(pmcr, gather, "pmcr and gather");
+  ExpectAgreement(phs, gather, "phs and gather");
+}
+
+TEST(Agreement, OnACornellBox) { ExpectAllAgree(PatchesOf(MakeCornell(4)), 4000, 1000000); }
+
+TEST(Agreement, OnThePaperLikeRoomOf1450Patches) {
+  std::ifstream file("../shared/scenes/real/d14_paperlike_1450.glb", std::ios::binary);
+  if (!file) GTEST_SKIP() << "../shared/scenes is not here";
+  std::stringstream bytes;
+  bytes << file.rdbuf();
+  const auto scene = LoadGltf({"d14.glb", bytes.str(), {}});
+  ASSERT_TRUE(scene.ok()) << scene.status();
+  ExpectAllAgree(PatchesOf(*scene), 4000, 1000000);
+}
+
+}  // namespace
+}  // namespace lambert
