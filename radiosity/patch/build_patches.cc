@@ -17,9 +17,9 @@ namespace {
 
 // What is known of a scene before any patch is made.
 struct Survey {
-  Vec3 origin;         // centre of the bounding box of all triangles
+  Vec3 origin;  // centre of the bounding box of all triangles
   int64_t triangles = 0;
-  double pieces = 0;   // that splitting will make at least
+  double pieces = 0;  // that splitting will make at least
 };
 
 absl::StatusOr<Survey> SurveyScene(const Scene& scene, const PatchOptions& options) {
@@ -101,8 +101,7 @@ absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& op
   absl::Status status = options.Validate();
   if (!status.ok()) return status;
   std::vector<Warning> warnings = scene.warnings;
-  absl::StatusOr<std::vector<Surface>> surfaces =
-      MakeSurfaces(scene, options.two_sided, &warnings);
+  absl::StatusOr<std::vector<Surface>> surfaces = MakeSurfaces(scene, options.two_sided, &warnings);
   if (!surfaces.ok()) return surfaces.status();
   absl::StatusOr<Survey> survey = SurveyScene(scene, options);
   if (!survey.ok()) return survey.status();

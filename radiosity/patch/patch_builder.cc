@@ -89,8 +89,7 @@ absl::Status PatchBuilder::AddPiece(const PlacedTriangle& placed, const SplitPie
   absl::StatusOr<Rgb> reflectance =
       Mean(placed, piece, surface.reflectance_texture, surface.reflectance_uv);
   if (!reflectance.ok()) return reflectance.status();
-  absl::StatusOr<Rgb> exitance =
-      Mean(placed, piece, surface.exitance_texture, surface.exitance_uv);
+  absl::StatusOr<Rgb> exitance = Mean(placed, piece, surface.exitance_texture, surface.exitance_uv);
   if (!exitance.ok()) return exitance.status();
   fronts_.corners.push_back(corners);
   fronts_.area_m2.push_back(area_m2);

@@ -28,19 +28,19 @@ struct PatchSource {
 };
 
 struct PatchSet {
-  Vec3 origin;                                  // metres: world = origin + corner
-  std::vector<std::array<Vec3, 3>> corners;     // metres, relative to `origin`, counter-clockwise
-  std::vector<double> area_m2;                  // > 0
-  std::vector<Rgb> reflectance;                 // 0..1
-  std::vector<Rgb> exitance_lm_per_m2;          // emitted, >= 0
-  std::vector<PatchIndex> twin;                 // other side of the same triangle, or kNoPatch
-  std::vector<uint8_t> is_back;                 // 1 for the back of a two-sided triangle
+  Vec3 origin;                               // metres: world = origin + corner
+  std::vector<std::array<Vec3, 3>> corners;  // metres, relative to `origin`, counter-clockwise
+  std::vector<double> area_m2;               // > 0
+  std::vector<Rgb> reflectance;              // 0..1
+  std::vector<Rgb> exitance_lm_per_m2;       // emitted, >= 0
+  std::vector<PatchIndex> twin;              // other side of the same triangle, or kNoPatch
+  std::vector<uint8_t> is_back;              // 1 for the back of a two-sided triangle
   std::vector<PatchSource> source;
-  std::vector<PointLight> point_lights;         // positions relative to `origin`
+  std::vector<PointLight> point_lights;  // positions relative to `origin`
   // Annotations: for people and pictures, no influence on the solution.
-  std::vector<std::string> node_names;          // by node index
-  std::vector<Camera> cameras;                  // translations relative to `origin`
-  std::vector<Warning> warnings;                // of reading and of patching
+  std::vector<std::string> node_names;  // by node index
+  std::vector<Camera> cameras;          // translations relative to `origin`
+  std::vector<Warning> warnings;        // of reading and of patching
 
   PatchIndex size() const { return static_cast<PatchIndex>(corners.size()); }
 };

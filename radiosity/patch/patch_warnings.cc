@@ -44,8 +44,9 @@ void AppendPatchWarnings(PatchSet* patches) {
   }
   if (const int64_t count = CountHighReflectance(*patches); count > 0) {
     patches->warnings.push_back(
-        {"REFLECTANCE_HIGH", absl::StrCat(count, " patch(es) reflect more than 95 %, more than any "
-                                                 "paint: light will bounce for long")});
+        {"REFLECTANCE_HIGH", absl::StrCat(count,
+                                          " patch(es) reflect more than 95 %, more than any "
+                                          "paint: light will bounce for long")});
   }
   if (IsClosedAndFacesOutward(*patches)) {
     patches->warnings.push_back(

@@ -12,8 +12,7 @@ Shape Measure(const std::array<Vec3, 3>& corners) {
 }
 
 bool IsDegenerate(const std::array<Vec3, 3>& corners, const Shape& shape) {
-  const double farthest_m =
-      std::max({Length(corners[0]), Length(corners[1]), Length(corners[2])});
+  const double farthest_m = std::max({Length(corners[0]), Length(corners[1]), Length(corners[2])});
   const double rounding_m = 4 * std::numeric_limits<double>::epsilon() * farthest_m;
   return !(shape.area_m2 > rounding_m * shape.longest_edge_m);
 }

@@ -64,8 +64,8 @@ double MinimumPieces(double area_m2, double longest_edge_m, double max_edge_m) {
 
 void SplitTriangle(const std::array<Vec3, 3>& triangle, double max_edge_m,
                    std::vector<SplitPiece>* pieces) {
-  const SplitPiece whole = {{{triangle[0], {1, 0, 0}}, {triangle[1], {0, 1, 0}},
-                             {triangle[2], {0, 0, 1}}}};
+  const SplitPiece whole = {
+      {{triangle[0], {1, 0, 0}}, {triangle[1], {0, 1, 0}}, {triangle[2], {0, 0, 1}}}};
   if (max_edge_m > 0) {
     Split(whole, max_edge_m, pieces);
   } else {

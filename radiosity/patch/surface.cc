@@ -56,9 +56,9 @@ absl::StatusOr<std::vector<Surface>> MakeSurfaces(const Scene& scene, bool all_t
     surfaces.push_back(surface);
   }
   if (clamped > 0) {
-    warnings->push_back({"REFLECTANCE_CLAMPED",
-                         absl::StrCat("the reflectance of ", clamped,
-                                      " material(s) is over 1 and was taken as 1")});
+    warnings->push_back(
+        {"REFLECTANCE_CLAMPED", absl::StrCat("the reflectance of ", clamped,
+                                             " material(s) is over 1 and was taken as 1")});
   }
   return surfaces;
 }

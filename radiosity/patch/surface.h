@@ -9,10 +9,10 @@
 namespace lambert {
 
 struct Surface {
-  Rgb reflectance;                             // 0..1, multiplies the texture
+  Rgb reflectance;                               // 0..1, multiplies the texture
   const Texture* reflectance_texture = nullptr;  // points into the scene
   int reflectance_uv = 0;
-  Rgb exitance_lm_per_m2;                      // pi * luminance, multiplies the texture
+  Rgb exitance_lm_per_m2;  // pi * luminance, multiplies the texture
   const Texture* exitance_texture = nullptr;
   int exitance_uv = 0;
   bool two_sided = false;

@@ -34,8 +34,8 @@ int SamplesPerEdge(const Texture& texture, const std::array<Uv, 3>& uv, int most
   double texels = 0;
   for (int k = 0; k < 3; ++k) {
     const Uv &a = uv[k], &b = uv[(k + 1) % 3];
-    texels = std::max(texels, std::hypot((b[0] - a[0]) * texture.width,
-                                         (b[1] - a[1]) * texture.height));
+    texels =
+        std::max(texels, std::hypot((b[0] - a[0]) * texture.width, (b[1] - a[1]) * texture.height));
   }
   return static_cast<int>(std::clamp(std::ceil(texels * kSamplesPerTexel), 1.0, 1.0 * most));
 }

@@ -31,12 +31,18 @@ float ToFloat(const unsigned char* from, bool normalized) {
 
 float ComponentToFloat(int type, const unsigned char* from, bool normalized) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: return ToFloat<int8_t>(from, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return ToFloat<uint8_t>(from, normalized);
-    case TINYGLTF_COMPONENT_TYPE_SHORT: return ToFloat<int16_t>(from, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return ToFloat<uint16_t>(from, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return ToFloat<uint32_t>(from, normalized);
-    default: return Load<float>(from);
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return ToFloat<int8_t>(from, normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return ToFloat<uint8_t>(from, normalized);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return ToFloat<int16_t>(from, normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return ToFloat<uint16_t>(from, normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return ToFloat<uint32_t>(from, normalized);
+    default:
+      return Load<float>(from);
   }
 }
 
@@ -44,20 +50,27 @@ float ComponentToFloat(int type, const unsigned char* from, bool normalized) {
 int ComponentBytes(int type) {
   switch (type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 1;
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 2;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT: return 4;
-    default: return 0;
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return 4;
+    default:
+      return 0;
   }
 }
 
 uint32_t LoadIndex(int type, const unsigned char* from) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return *from;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return Load<uint16_t>(from);
-    default: return Load<uint32_t>(from);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return *from;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return Load<uint16_t>(from);
+    default:
+      return Load<uint32_t>(from);
   }
 }
 
@@ -83,8 +96,7 @@ absl::StatusOr<ByteSpan> FindBufferView(const tinygltf::Model& model, int view) 
   }
   const std::vector<unsigned char>& data = model.buffers[range.buffer].data;
   if (!Fits(range.byteOffset, range.byteLength, 1, 1, data.size())) {
-    return SceneError(where,
-                      absl::StrCat("it runs past the ", data.size(), " bytes of its buffer"),
+    return SceneError(where, absl::StrCat("it runs past the ", data.size(), " bytes of its buffer"),
                       kExportAgain);
   }
   return ByteSpan{data.data() + range.byteOffset, range.byteLength};
@@ -117,16 +129,15 @@ absl::StatusOr<AccessorReader> AccessorReader::Make(const tinygltf::Model& model
       return SceneError(where, "its stride is smaller than its elements", kExportAgain);
     }
     if (!Fits(accessor.byteOffset, reader.count_, reader.stride_, element, view->size)) {
-      return SceneError(where,
-                        absl::StrCat("count ", reader.count_, " runs past its buffer view"),
+      return SceneError(where, absl::StrCat("count ", reader.count_, " runs past its buffer view"),
                         kExportAgain);
     }
     reader.data_ = view->data + accessor.byteOffset;
   } else if (reader.count_ > kMostZeros) {
-    return MakeError(absl::StatusCode::kInvalidArgument,
-                     {"SCENE_TOO_LARGE", where,
-                      absl::StrCat("it stands for ", reader.count_, " zeros without data"),
-                      kExportAgain});
+    return MakeError(
+        absl::StatusCode::kInvalidArgument,
+        {"SCENE_TOO_LARGE", where,
+         absl::StrCat("it stands for ", reader.count_, " zeros without data"), kExportAgain});
   }
   if (accessor.sparse.isSparse) {
     absl::Status status = reader.ReadSparse(model, accessor, where);

@@ -11,9 +11,9 @@ namespace lambert {
 namespace {
 
 enum class Support {
-  kRead,      // read whole
-  kCounted,   // counted where it is used (materials, lights, nodes)
-  kLeftOut,   // the scene is close to what was meant without it: named in a warning
+  kRead,     // read whole
+  kCounted,  // counted where it is used (materials, lights, nodes)
+  kLeftOut,  // the scene is close to what was meant without it: named in a warning
 };
 
 struct KnownExtension {
@@ -54,7 +54,8 @@ bool IsVersion2(const std::string& version) { return absl::StartsWith(version, "
 absl::Status CheckVersionAndExtensions(const tinygltf::Model& model, UnreadFeatures* unread) {
   const tinygltf::Asset& asset = model.asset;
   if (!IsVersion2(asset.version)) {
-    return SceneError("asset", absl::StrCat("its glTF version is \"", Printable(asset.version), "\""),
+    return SceneError("asset",
+                      absl::StrCat("its glTF version is \"", Printable(asset.version), "\""),
                       "convert the file to glTF 2.0");
   }
   // minVersion is the oldest reader that will do: Lambert is a reader of 2.0.

@@ -36,8 +36,9 @@ absl::StatusOr<Texture> TextureLoader::Decode(int index) {
     if (!view.ok()) return view.status();
     bytes = *view;
   } else if (bytes.size == 0) {
-    return SceneError(where, absl::StrCat("file \"", Printable(image.uri), "\" did not come with the scene"),
-                      "put it beside the scene, or export a GLB with everything inside");
+    return SceneError(
+        where, absl::StrCat("file \"", Printable(image.uri), "\" did not come with the scene"),
+        "put it beside the scene, or export a GLB with everything inside");
   }
   absl::StatusOr<ImageSize> size = ReadImageSize(bytes.data, bytes.size, where);
   if (!size.ok()) return size.status();
@@ -48,8 +49,8 @@ absl::StatusOr<Texture> TextureLoader::Decode(int index) {
   }
   pixels_ += pixels;
   if (pixels_ > limits_.total_pixels) {
-    return TooLarge(where, absl::StrCat("all images together have more than ",
-                                        limits_.total_pixels, " pixels"));
+    return TooLarge(where, absl::StrCat("all images together have more than ", limits_.total_pixels,
+                                        " pixels"));
   }
   return DecodeImage(bytes.data, bytes.size, where);
 }

@@ -56,9 +56,8 @@ absl::StatusOr<Material> ReadMaterial(const tinygltf::Material& gltf, const std:
   material.reflectance_texture = use->texture;
   material.reflectance_uv = use->uv;
 
-  absl::StatusOr<double> strength =
-      ExtensionNumber(gltf.extensions_json_string, "KHR_materials_emissive_strength",
-                      "emissiveStrength", 1, where);
+  absl::StatusOr<double> strength = ExtensionNumber(
+      gltf.extensions_json_string, "KHR_materials_emissive_strength", "emissiveStrength", 1, where);
   if (!strength.ok()) return strength.status();
   material.luminance = ToRgb(gltf.emissiveFactor) * *strength;
   use = ReadTexture(gltf.emissiveTexture, material.luminance, "emissive texture", textures, unread);

@@ -26,9 +26,12 @@ uint64_t TriangleCount(int mode, uint64_t vertices) {
 // Which of the listed vertices make triangle t (glTF 2.0, 3.7.2.1).
 std::array<uint64_t, 3> TriangleCorners(int mode, uint64_t t) {
   switch (mode) {
-    case TINYGLTF_MODE_TRIANGLE_STRIP: return {t, t + 1 + t % 2, t + 2 - t % 2};
-    case TINYGLTF_MODE_TRIANGLE_FAN: return {t + 1, t + 2, 0};
-    default: return {3 * t, 3 * t + 1, 3 * t + 2};
+    case TINYGLTF_MODE_TRIANGLE_STRIP:
+      return {t, t + 1 + t % 2, t + 2 - t % 2};
+    case TINYGLTF_MODE_TRIANGLE_FAN:
+      return {t + 1, t + 2, 0};
+    default:
+      return {3 * t, 3 * t + 1, 3 * t + 2};
   }
 }
 
@@ -119,8 +122,9 @@ absl::Status ReadTriangles(const Attributes& attributes, int mode, const std::st
     for (int k = 0; k < 3; ++k) {
       const uint64_t i = attributes.indices ? attributes.indices->Index(corners[k]) : corners[k];
       if (i >= attributes.positions->count()) {
-        return SceneError(where, absl::StrCat("index ", i, " is not under its vertex count ",
-                                              attributes.positions->count()),
+        return SceneError(where,
+                          absl::StrCat("index ", i, " is not under its vertex count ",
+                                       attributes.positions->count()),
                           kExportAgain);
       }
       const std::optional<uint32_t> vertex = copier.Copy(static_cast<uint32_t>(i));

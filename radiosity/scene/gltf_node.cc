@@ -36,14 +36,14 @@ absl::StatusOr<Transform> FromMatrix(const std::vector<double>& m, int node) {
   if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
     return NodeError(node, "its matrix is not affine: the last row is not 0 0 0 1");
   }
-  return Transform{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]},
-                   {m[12], m[13], m[14]}};
+  return Transform{
+      {m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
 }
 
 // Translation * rotation * scale, or the matrix.
 absl::StatusOr<Transform> LocalTransform(const tinygltf::Node& gltf, int node) {
   if (!gltf.matrix.empty()) return FromMatrix(gltf.matrix, node);
-  const std::vector<double> &t = gltf.translation, &r = gltf.rotation, &s = gltf.scale;
+  const std::vector<double>&t = gltf.translation, &r = gltf.rotation, &s = gltf.scale;
   if ((!t.empty() && t.size() != 3) || (!r.empty() && r.size() != 4) ||
       (!s.empty() && s.size() != 3)) {
     return NodeError(node, "its translation, rotation or scale has a wrong length");
@@ -160,8 +160,9 @@ class NodeWalker {
 
   absl::Status ShowLight(int node, const Transform& world) {
     const tinygltf::Node& gltf = model_.nodes[node];
-    absl::StatusOr<double> index = ExtensionNumber(
-        gltf.extensions_json_string, "KHR_lights_punctual", "light", -1, absl::StrCat("node ", node));
+    absl::StatusOr<double> index =
+        ExtensionNumber(gltf.extensions_json_string, "KHR_lights_punctual", "light", -1,
+                        absl::StrCat("node ", node));
     if (!index.ok()) return index.status();
     if (*index == -1) return absl::OkStatus();
     if (!(*index >= 0) || *index >= static_cast<double>(model_.lights.size())) {

@@ -51,7 +51,8 @@ namespace {
 constexpr int64_t kBytesPerPixel = 48, kBytesFixed = 4 << 20;
 
 absl::Status Undecodable(const std::string& where) {
-  return SceneError(where, "it is not a PNG or JPEG image that can be decoded, or it is far too large",
+  return SceneError(where,
+                    "it is not a PNG or JPEG image that can be decoded, or it is far too large",
                     "save the image again as PNG or JPEG");
 }
 

@@ -113,8 +113,9 @@ absl::StatusOr<std::vector<std::string>> ReadExternalUris(const std::string& mai
       const std::string uri = item["uri"].get<std::string>();
       if (absl::StartsWith(uri, "data:")) continue;
       if (!IsSafeRelativeUri(uri)) {
-        return SceneError(list, absl::StrCat("URI \"", Printable(uri), "\" is not a file beside the scene"),
-                          "export a GLB with everything inside");
+        return SceneError(
+            list, absl::StrCat("URI \"", Printable(uri), "\" is not a file beside the scene"),
+            "export a GLB with everything inside");
       }
       const std::string file = DecodeUri(uri);
       if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);

@@ -13,17 +13,17 @@ namespace lambert {
 // A scene as it travels: the main file and the files that it names by relative URI. Nothing is ever
 // read from a disk or a network while a bundle is parsed.
 struct SceneBundle {
-  std::string main_name;                      // "room.glb": used in messages
-  std::string main_bytes;                     // GLB or glTF JSON, told apart by the first bytes
-  std::map<std::string, std::string> files;   // decoded URI -> bytes
+  std::string main_name;                     // "room.glb": used in messages
+  std::string main_bytes;                    // GLB or glTF JSON, told apart by the first bytes
+  std::map<std::string, std::string> files;  // decoded URI -> bytes
 };
 
 // What a parsed scene may take at most; every limit is refused by name.
 struct SceneLimits {
-  int64_t bytes = int64_t{2} << 30;           // of all files of the bundle together
-  int64_t triangles = 50'000'000;             // with instances
-  int64_t image_pixels = 64'000'000;          // of one image, checked in its header before decoding
-  int64_t total_pixels = 512'000'000;         // of all images that are decoded
+  int64_t bytes = int64_t{2} << 30;    // of all files of the bundle together
+  int64_t triangles = 50'000'000;      // with instances
+  int64_t image_pixels = 64'000'000;   // of one image, checked in its header before decoding
+  int64_t total_pixels = 512'000'000;  // of all images that are decoded
 };
 
 // Reads the default scene (or the first; or all root nodes where the file has no scene). Points and

@@ -16,27 +16,27 @@ namespace lambert {
 // An 8-bit RGBA image as the file stores it (sRGB encoded), rows from top to bottom.
 struct Texture {
   enum class Wrap { kRepeat, kMirroredRepeat, kClampToEdge };
-  int width = 0, height = 0;       // pixels
-  std::vector<uint8_t> rgba;       // width * height * 4
+  int width = 0, height = 0;  // pixels
+  std::vector<uint8_t> rgba;  // width * height * 4
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
 };
 
 struct Material {
   std::string name;
-  Rgb reflectance{1, 1, 1};        // baseColorFactor, 0..1, multiplies the texture
-  int reflectance_texture = -1;    // index into Scene::textures
-  int reflectance_uv = 0;          // which TEXCOORD_n
-  Rgb luminance;                   // emissiveFactor * emissiveStrength, in the file's unit (nit)
+  Rgb reflectance{1, 1, 1};      // baseColorFactor, 0..1, multiplies the texture
+  int reflectance_texture = -1;  // index into Scene::textures
+  int reflectance_uv = 0;        // which TEXCOORD_n
+  Rgb luminance;                 // emissiveFactor * emissiveStrength, in the file's unit (nit)
   int luminance_texture = -1;
   int luminance_uv = 0;
   bool two_sided = false;
 };
 
 struct Primitive {
-  std::vector<std::array<float, 3>> positions;              // local coordinates
-  std::vector<std::array<uint32_t, 3>> triangles;           // counter-clockwise seen from the front
-  std::array<std::vector<std::array<float, 2>>, 2> uv;      // TEXCOORD_0 and _1, empty if absent
-  int material = -1;                                        // -1: the glTF default material
+  std::vector<std::array<float, 3>> positions;          // local coordinates
+  std::vector<std::array<uint32_t, 3>> triangles;       // counter-clockwise seen from the front
+  std::array<std::vector<std::array<float, 2>>, 2> uv;  // TEXCOORD_0 and _1, empty if absent
+  int material = -1;                                    // -1: the glTF default material
 };
 
 struct Mesh {
@@ -53,17 +53,17 @@ struct Instance {
 
 struct Camera {
   std::string name;
-  Transform world;             // looks along -z, +y up; orthonormal
+  Transform world;  // looks along -z, +y up; orthonormal
   bool perspective = true;
-  double yfov_rad = 0.8;       // perspective: full vertical angle
-  double half_height_m = 1;    // orthographic: half of the visible height
-  double aspect = 1.5;         // width / height; 0 where the file leaves it open
+  double yfov_rad = 0.8;     // perspective: full vertical angle
+  double half_height_m = 1;  // orthographic: half of the visible height
+  double aspect = 1.5;       // width / height; 0 where the file leaves it open
 };
 
 // An isotropic point light (KHR_lights_punctual): it sends 4 pi intensity lumen.
 struct PointLight {
   std::string name;
-  Vec3 position;               // metres, world
+  Vec3 position;  // metres, world
   Rgb intensity_cd;
 };
 
@@ -71,8 +71,8 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
-  std::vector<Instance> instances;       // of the default scene, in node order
-  std::vector<std::string> node_names;   // by node index; "" where the file gives none
+  std::vector<Instance> instances;      // of the default scene, in node order
+  std::vector<std::string> node_names;  // by node index; "" where the file gives none
   std::vector<Camera> cameras;
   std::vector<PointLight> point_lights;
   std::vector<Warning> warnings;

@@ -15,9 +15,9 @@ void UnreadFeatures::Add(const std::string& feature, const std::string& unit,
 std::vector<Warning> UnreadFeatures::Warnings() const {
   std::vector<Warning> warnings;
   for (const auto& [feature, entry] : entries_) {
-    warnings.push_back({"FEATURE_NOT_READ",
-                        absl::StrCat(feature, " (", entry.count, " ", entry.unit,
-                                     entry.count == 1 ? "" : "s", "): ", entry.consequence)});
+    warnings.push_back(
+        {"FEATURE_NOT_READ", absl::StrCat(feature, " (", entry.count, " ", entry.unit,
+                                          entry.count == 1 ? "" : "s", "): ", entry.consequence)});
   }
   return warnings;
 }

@@ -216,8 +216,8 @@ TEST(BuildPatches, OnlyAClosedSceneFacingOutwardIsSaidToBeInsideOut) {
   const std::vector<Paint> paint = {{{0.5, 0.5, 0.5}, {1, 1, 1}}};
   const Scene outward = SceneMaker().Box({}, {1, 1, 1}, false, paint).Make();
   EXPECT_TRUE(HasWarning(PatchesOf(outward), "POSSIBLY_INVERTED_NORMALS"));
-  for (const Scene& scene : {MakeFurnace(0.5), MakeOffice(1), MakeCornell(),
-                             MakeParallelSquares(0.5, 0.5)}) {
+  for (const Scene& scene :
+       {MakeFurnace(0.5), MakeOffice(1), MakeCornell(), MakeParallelSquares(0.5, 0.5)}) {
     EXPECT_FALSE(HasWarning(PatchesOf(scene), "POSSIBLY_INVERTED_NORMALS"));
   }
 }

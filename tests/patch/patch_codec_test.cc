@@ -57,8 +57,7 @@ TEST(PatchCodec, EveryFlippedByteDecodesOrIsDataLoss) {
 
 TEST(PatchCodec, ValuesThatWouldHurtLaterAreRefused) {
   const auto expect_refused = [](const PatchSet& patches) {
-    EXPECT_EQ(DecodePatchSet(EncodePatchSet(patches)).status().code(),
-              absl::StatusCode::kDataLoss);
+    EXPECT_EQ(DecodePatchSet(EncodePatchSet(patches)).status().code(), absl::StatusCode::kDataLoss);
   };
   PatchSet patches = Everything();
   patches.area_m2[0] = 0;

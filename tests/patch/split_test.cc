@@ -88,7 +88,8 @@ TEST(MinimumPieces, IsALowerBound) {
 
 TEST(MortonCodes, FollowTheZCurveOfACube) {
   std::vector<Vec3> corners;
-  for (int k = 0; k < 8; ++k) corners.push_back({1.0 * (k & 1), 1.0 * (k >> 1 & 1), 1.0 * (k >> 2)});
+  for (int k = 0; k < 8; ++k)
+    corners.push_back({1.0 * (k & 1), 1.0 * (k >> 1 & 1), 1.0 * (k >> 2)});
   const std::vector<uint64_t> codes = MortonCodes(corners);
   EXPECT_EQ(codes.front(), 0u);
   EXPECT_EQ(codes.back(), (uint64_t{1} << 63) - 1);

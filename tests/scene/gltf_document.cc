@@ -42,8 +42,12 @@ void AppendPngChunk(const std::string& type, const std::string& data, std::strin
 // zlib with one stored block. Requires: fewer than 65536 bytes.
 std::string Stored(const std::string& data) {
   const uint16_t size = static_cast<uint16_t>(data.size());
-  std::string zlib = {0x78, 0x01, 0x01, static_cast<char>(size & 0xff),
-                      static_cast<char>(size >> 8), static_cast<char>(~size & 0xff),
+  std::string zlib = {0x78,
+                      0x01,
+                      0x01,
+                      static_cast<char>(size & 0xff),
+                      static_cast<char>(size >> 8),
+                      static_cast<char>(~size & 0xff),
                       static_cast<char>(~size >> 8 & 0xff)};
   uint32_t a = 1, b = 0;
   for (unsigned char c : data) {
@@ -58,16 +62,17 @@ std::string Stored(const std::string& data) {
 }  // namespace
 
 GltfDocument::GltfDocument() {
-  json = {{"asset", {{"version", "2.0"}}},
-          {"scene", 0},
-          {"scenes", {{{"nodes", {0}}}}},
-          {"nodes", {{{"mesh", 0}, {"name", "triangle"}}}},
-          {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1},
-                                        {"material", 0}}}}}}},
-          {"materials",
-           {{{"emissiveFactor", {1, 1, 1}},
-             {"pbrMetallicRoughness",
-              {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"metallicFactor", 0}}}}}}};
+  json = {
+      {"asset", {{"version", "2.0"}}},
+      {"scene", 0},
+      {"scenes", {{{"nodes", {0}}}}},
+      {"nodes", {{{"mesh", 0}, {"name", "triangle"}}}},
+      {"meshes",
+       {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}}}}}}},
+      {"materials",
+       {{{"emissiveFactor", {1, 1, 1}},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"metallicFactor", 0}}}}}}};
   AddAccessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, 5126, "VEC3", 3);
   AddAccessor<uint16_t>({0, 1, 2}, 5123, "SCALAR", 3);
 }

@@ -110,8 +110,7 @@ TEST(LoadGltf, UnusedVerticesCostNothing) {
   GltfDocument document;
   std::vector<float> many(3 * 50'000, std::nanf(""));
   for (int k = 0; k < 9; ++k) many[3 * 49'997 + k] = k * k;
-  document.Primitive()["attributes"]["POSITION"] =
-      document.AddAccessor(many, 5126, "VEC3", 50'000);
+  document.Primitive()["attributes"]["POSITION"] = document.AddAccessor(many, 5126, "VEC3", 50'000);
   document.Primitive()["indices"] =
       document.AddAccessor<uint32_t>({49'997, 49'998, 49'999}, 5125, "SCALAR", 3);
   const absl::StatusOr<Scene> scene = document.Load();

@@ -193,7 +193,8 @@ TEST(HostileGltf, ImagesAreMeasuredBeforeTheyAreDecoded) {
 }
 
 TEST(HostileGltf, FilesOutsideTheFolderAreNeitherListedNorRead) {
-  for (const char* uri : {"../secret.bin", "/etc/passwd", "file:///etc/passwd", "a\\b", "%2e%2e/x"}) {
+  for (const char* uri :
+       {"../secret.bin", "/etc/passwd", "file:///etc/passwd", "a\\b", "%2e%2e/x"}) {
     GltfDocument document;
     document.json["buffers"][0]["uri"] = uri;
     EXPECT_FALSE(ListExternalFiles("room.gltf", document.json.dump()).ok()) << uri;

@@ -11,10 +11,10 @@ TEST(UnreadFeatures, EachFeatureIsNamedOnceWithItsCount) {
   unread.Add("skins", "node", "shown at rest");
   unread.Add("alpha mode MASK", "material", "taken as opaque");
   unread.Add("skins", "node", "shown at rest");
-  EXPECT_EQ(unread.Warnings(),
-            (std::vector<Warning>{
-                {"FEATURE_NOT_READ", "alpha mode MASK (1 material): taken as opaque"},
-                {"FEATURE_NOT_READ", "skins (2 nodes): shown at rest"}}));
+  EXPECT_EQ(
+      unread.Warnings(),
+      (std::vector<Warning>{{"FEATURE_NOT_READ", "alpha mode MASK (1 material): taken as opaque"},
+                            {"FEATURE_NOT_READ", "skins (2 nodes): shown at rest"}}));
 }
 
 }  // namespace

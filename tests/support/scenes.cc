@@ -22,8 +22,8 @@ struct Face {
 
 std::array<Face, 6> InwardFaces(Vec3 low, Vec3 high) {
   const Vec3 x{high.x - low.x, 0, 0}, y{0, high.y - low.y, 0}, z{0, 0, high.z - low.z};
-  return {{{low, y, z}, {low + x, z, y}, {low, z, x}, {low + y, x, z}, {low, x, y},
-           {low + z, y, x}}};
+  return {
+      {{low, y, z}, {low + x, z, y}, {low, z, x}, {low + y, x, z}, {low, x, y}, {low + z, y, x}}};
 }
 
 void AppendQuad(const Face& face, int n, Primitive* primitive) {
@@ -193,9 +193,9 @@ Scene MakeIcosphere(int splits, const Paint& paint) {
                               {0, -1, t}, {0, 1, t}, {0, -1, -t}, {0, 1, -t},
                               {t, 0, -1}, {t, 0, 1}, {-t, 0, -1}, {-t, 0, 1}};
   std::vector<std::array<uint32_t, 3>> faces = {
-      {0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9},  {5, 11, 4},
-      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6},  {3, 6, 8},
-      {3, 8, 9},  {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+      {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (int k = 0; k < splits; ++k) {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
     const auto middle = [&](uint32_t a, uint32_t b) {

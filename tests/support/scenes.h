@@ -56,7 +56,8 @@ Scene MakeOffice(int n = 4);
 // A sphere of radius 1 m about the origin that faces inward; 20 * 4^splits triangles.
 Scene MakeIcosphere(int splits, const Paint& paint);
 
-// `scene` as a GLB file: meshes, materials without textures, node transforms, cameras, point lights.
+// `scene` as a GLB file: meshes, materials without textures, node transforms, cameras, point
+// lights.
 std::string ToGlb(const Scene& scene);
 
 }  // namespace lambert

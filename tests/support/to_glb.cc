@@ -22,9 +22,8 @@ Json ToMatrix(const Transform& t) {
 // Appends `data` to the binary chunk as a buffer view of its own; returns the view's index.
 template <typename T>
 size_t AddView(const std::vector<T>& data, Json* gltf, std::string* chunk) {
-  (*gltf)["bufferViews"].push_back({{"buffer", 0},
-                                    {"byteOffset", chunk->size()},
-                                    {"byteLength", data.size() * sizeof(T)}});
+  (*gltf)["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", chunk->size()}, {"byteLength", data.size() * sizeof(T)}});
   chunk->append(reinterpret_cast<const char*>(data.data()), data.size() * sizeof(T));
   return (*gltf)["bufferViews"].size() - 1;
 }
@@ -39,10 +38,16 @@ Json ToJson(const Primitive& primitive, Json* gltf, std::string* chunk) {
     }
   }
   const size_t positions = AddView(primitive.positions, gltf, chunk);
-  accessors.push_back({{"bufferView", positions}, {"componentType", 5126}, {"type", "VEC3"},
-                       {"count", primitive.positions.size()}, {"min", low}, {"max", high}});
+  accessors.push_back({{"bufferView", positions},
+                       {"componentType", 5126},
+                       {"type", "VEC3"},
+                       {"count", primitive.positions.size()},
+                       {"min", low},
+                       {"max", high}});
   const size_t triangles = AddView(primitive.triangles, gltf, chunk);
-  accessors.push_back({{"bufferView", triangles}, {"componentType", 5125}, {"type", "SCALAR"},
+  accessors.push_back({{"bufferView", triangles},
+                       {"componentType", 5125},
+                       {"type", "SCALAR"},
                        {"count", primitive.triangles.size() * 3}});
   Json json = {{"attributes", {{"POSITION", accessors.size() - 2}}},
                {"indices", accessors.size() - 1}};
@@ -70,15 +75,16 @@ void AddCamerasAndLights(const Scene& scene, Json* gltf) {
   for (const Camera& camera : scene.cameras) {
     const Json lens = {{"yfov", camera.yfov_rad}, {"aspectRatio", camera.aspect}, {"znear", 0.01}};
     (*gltf)["cameras"].push_back({{"type", "perspective"}, {"perspective", lens}});
-    (*gltf)["nodes"].push_back({{"name", camera.name}, {"matrix", ToMatrix(camera.world)},
+    (*gltf)["nodes"].push_back({{"name", camera.name},
+                                {"matrix", ToMatrix(camera.world)},
                                 {"camera", (*gltf)["cameras"].size() - 1}});
   }
   for (const PointLight& light : scene.point_lights) {
     const Rgb i = light.intensity_cd;
     const double brightest = std::max({i.r, i.g, i.b});
     Json& lights = (*gltf)["extensions"]["KHR_lights_punctual"]["lights"];
-    lights.push_back({{"type", "point"}, {"color", ToJson(i / brightest)},
-                      {"intensity", brightest}});
+    lights.push_back(
+        {{"type", "point"}, {"color", ToJson(i / brightest)}, {"intensity", brightest}});
     Json node = {{"name", light.name},
                  {"translation", {light.position.x, light.position.y, light.position.z}}};
     node["extensions"]["KHR_lights_punctual"]["light"] = lights.size() - 1;
