@@ -33,8 +33,8 @@ class BlobStore {
   virtual bool Has(const std::string& sha256) const = 0;
   // NOT_FOUND (BLOB_NOT_FOUND); DATA_LOSS (BLOB_CORRUPT) where the bytes no longer have the digest.
   virtual absl::StatusOr<std::shared_ptr<const Blob>> Get(const std::string& sha256) = 0;
-  // Stores bytes that the server made and returns their digest. STORE_FULL.
-  virtual absl::StatusOr<std::string> Put(std::string bytes) = 0;
+  // Stores bytes that the server made. Requires: sha256 is Sha256Hex(bytes). STORE_FULL.
+  virtual absl::Status Put(const std::string& sha256, std::string bytes) = 0;
   virtual void Delete(const std::string& sha256) = 0;
 
   // What has arrived of a blob so far, to go on with. Requires: at most one at a time for a digest.

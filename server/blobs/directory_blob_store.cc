@@ -96,13 +96,11 @@ class DirectoryBlobStore : public BlobStore {
     return *blob;
   }
 
-  absl::StatusOr<std::string> Put(std::string bytes) override {
-    std::string sha256 = Sha256Hex(bytes);
-    if (Has(sha256)) return sha256;
+  absl::Status Put(const std::string& sha256, std::string bytes) override {
+    if (Has(sha256)) return absl::OkStatus();
     absl::Status status = WriteFileAtomically(blobs_ + sha256, bytes);
-    if (!status.ok()) return status;
-    MarkVerified(sha256);
-    return sha256;
+    if (status.ok()) MarkVerified(sha256);
+    return status;
   }
 
   void Delete(const std::string& sha256) override {

@@ -78,10 +78,12 @@ class MemoryBlobStore : public BlobStore {
     return found->second;
   }
 
-  absl::StatusOr<std::string> Put(std::string bytes) override {
-    std::string sha256 = Sha256Hex(bytes);
-    if (absl::Status status = Insert(sha256, std::move(bytes)); !status.ok()) return status;
-    return sha256;
+  absl::Status Put(const std::string& sha256, std::string bytes) override {
+    if (absl::Status room = budget_.Take(bytes.size()); !room.ok()) return room;
+    auto blob = std::make_shared<const MemoryBlob>(std::move(bytes));
+    absl::MutexLock lock(&mutex_);
+    if (!blobs_.emplace(sha256, blob).second) budget_.Give(blob->bytes().size());
+    return absl::OkStatus();
   }
 
   void Delete(const std::string& sha256) override {
@@ -99,20 +101,12 @@ class MemoryBlobStore : public BlobStore {
   absl::Status Commit(std::unique_ptr<PartialBlob> partial, const std::string& sha256) override {
     std::string bytes = static_cast<MemoryPartialBlob&>(*partial).Release();
     if (Sha256Hex(bytes) != sha256) return DigestMismatch(sha256);
-    return Insert(sha256, std::move(bytes));
+    return Put(sha256, std::move(bytes));
   }
 
   void DropPartial(const std::string&) override {}  // gone with the PartialBlob
 
  private:
-  absl::Status Insert(const std::string& sha256, std::string bytes) {
-    if (absl::Status room = budget_.Take(bytes.size()); !room.ok()) return room;
-    auto blob = std::make_shared<const MemoryBlob>(std::move(bytes));
-    absl::MutexLock lock(&mutex_);
-    if (!blobs_.emplace(sha256, blob).second) budget_.Give(blob->bytes().size());
-    return absl::OkStatus();
-  }
-
   Budget budget_;  // synchronizes itself
   mutable absl::Mutex mutex_;
   std::map<std::string, std::shared_ptr<const Blob>> blobs_ ABSL_GUARDED_BY(mutex_);

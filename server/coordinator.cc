@@ -1,0 +1,151 @@
+#include "server/coordinator.h"
+
+#include <utility>
+#include <vector>
+
+#include "absl/time/clock.h"
+#include "radiosity/core/error.h"
+#include "radiosity/patch/build_patches.h"
+#include "radiosity/shoot/shooter.h"
+#include "radiosity/solve/plan.h"
+#include "server/jobs/spec.h"
+
+namespace lambert::server {
+namespace {
+
+constexpr int kPoolThreads = 2;
+constexpr absl::Duration kTick = absl::Milliseconds(50);
+// Watchers take 30 s of silence for a broken connection.
+constexpr auto kRepeatProgress = std::chrono::seconds(10);
+constexpr auto kDropIdle = std::chrono::minutes(1);
+
+// Grows from one run of a server to the next, and leaves room for each run's own numbers.
+int64_t NewEpoch() { return absl::ToUnixMicros(absl::Now()) * 1000; }
+
+}  // namespace
+
+Coordinator::Coordinator(const CoordinatorOptions& options, std::unique_ptr<BlobStore> blobs,
+                         std::unique_ptr<RecordStore> records)
+    : options_(options),
+      unit_version_(options.unit_version.empty() ? UnitVersion() : options.unit_version),
+      blobs_(std::move(blobs)),
+      records_(std::move(records)),
+      refs_(blobs_.get(), options.uploads.idle, options.clock),
+      uploads_(blobs_.get(), options.uploads, options.clock),
+      scenes_(blobs_.get(), &refs_, records_.get(), options.scene),
+      jobs_(&refs_, records_.get(), options.max_waiting_jobs),
+      work_(options.work, unit_version_, NewEpoch(), options.clock),
+      runner_({blobs_.get(), &refs_, &scenes_, &jobs_, &work_, options.max_patches, options.clock,
+               options.log}),
+      pool_(kPoolThreads) {}
+
+absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Start(
+    const CoordinatorOptions& options) {
+  std::unique_ptr<BlobStore> blobs = MakeMemoryBlobStore(options.max_store_bytes);
+  std::unique_ptr<RecordStore> records = MakeNullRecordStore();
+  if (!options.data_folder.empty()) {
+    absl::StatusOr<std::unique_ptr<BlobStore>> opened = MakeDirectoryBlobStore(options.data_folder);
+    if (!opened.ok()) return opened.status();
+    blobs = *std::move(opened);
+    records = MakeDirectoryRecordStore(options.data_folder);
+  }
+  std::unique_ptr<Coordinator> coordinator(
+      new Coordinator(options, std::move(blobs), std::move(records)));
+  if (absl::Status restored = coordinator->Restore(); !restored.ok()) return restored;
+  coordinator->housekeeper_ = std::thread([self = coordinator.get()] { self->KeepHouse(); });
+  return coordinator;
+}
+
+absl::Status Coordinator::Restore() {
+  if (absl::Status restored = scenes_.Restore(); !restored.ok()) return restored;
+  absl::StatusOr<std::vector<std::shared_ptr<Job>>> unfinished = jobs_.Restore();
+  if (!unfinished.ok()) return unfinished.status();
+  scheduler_ = std::make_unique<Scheduler>(&runner_, options_.max_running_jobs);
+  for (std::shared_ptr<Job>& job : *unfinished) {
+    options_.log(job->name() + " is gone on with");
+    scheduler_->Add(std::move(job));
+  }
+  return absl::OkStatus();
+}
+
+Coordinator::~Coordinator() {
+  Shutdown();
+  scheduler_.reset();
+  if (housekeeper_.joinable()) housekeeper_.join();
+}
+
+void Coordinator::Shutdown() {
+  if (!stopping_.HasBeenNotified()) stopping_.Notify();
+  work_.Shutdown();
+  for (const std::shared_ptr<Job>& job : jobs_.All()) job->RepeatProgress();  // wakes watchers
+}
+
+void Coordinator::KeepHouse() {
+  TimePoint repeated = options_.clock(), dropped = repeated;
+  while (!stopping_.WaitForNotificationWithTimeout(kTick)) {
+    work_.Tick();
+    const TimePoint now = options_.clock();
+    if (now - repeated >= kRepeatProgress) {
+      repeated = now;
+      for (const std::shared_ptr<Job>& job : jobs_.All()) job->RepeatProgress();
+    }
+    if (now - dropped >= kDropIdle) {
+      dropped = now;
+      uploads_.DropIdle();
+      refs_.DropIdle();
+    }
+  }
+}
+
+absl::StatusOr<v1::PlanSceneResponse> Coordinator::PlanScene(const v1::PlanSceneRequest& request) {
+  absl::StatusOr<JobOptions> options = DecodeSpec(request.spec(), options_.max_patches);
+  if (!options.ok()) return options.status();
+  absl::StatusOr<Scene> scene = scenes_.Load(request.scene());
+  if (!scene.ok()) return scene.status();
+  absl::StatusOr<PatchSet> patches = BuildPatches(*scene, options->patch);
+  if (!patches.ok()) return patches.status();
+  v1::PlanSceneResponse response;
+  *response.mutable_plan() = EncodePlan(MakePlan(*patches, options->solve), request.spec());
+  for (const Warning& warning : patches->warnings) {
+    *response.add_warnings() = EncodeWarning(warning);
+  }
+  return response;
+}
+
+absl::StatusOr<v1::SolveJob> Coordinator::CreateJob(const v1::CreateSolveJobRequest& request) {
+  absl::StatusOr<JobOptions> options = DecodeSpec(request.spec(), options_.max_patches);
+  if (!options.ok()) return options.status();
+  absl::StatusOr<v1::Scene> scene = scenes_.Get(request.scene());
+  if (!scene.ok()) return scene.status();
+  absl::StatusOr<JobStore::Created> created =
+      jobs_.Create(request, scene->display_name(), unit_version_);
+  if (!created.ok()) return created.status();
+  if (created->is_new) {
+    options_.log(created->job->name() + " created for " + scene->display_name());
+    scheduler_->Add(created->job);
+  }
+  return created->job->Get();
+}
+
+absl::StatusOr<v1::SolveJob> Coordinator::CancelJob(const std::string& name) {
+  absl::StatusOr<std::shared_ptr<Job>> job = jobs_.Find(name);
+  if (!job.ok()) return job.status();
+  if ((*job)->CancelQueued()) {
+    if (absl::Status saved = jobs_.Save(**job); !saved.ok()) return saved;
+  } else if (!(*job)->ended()) {
+    work_.AbortJob((*job)->id(), absl::CancelledError("a client cancelled the job"));
+    if ((*job)->ended()) work_.ForgetJob((*job)->id());  // it ended meanwhile
+  }
+  return (*job)->Get();
+}
+
+absl::Status Coordinator::DeleteScene(const std::string& name) {
+  if (jobs_.UsesScene(name)) {
+    return MakeError(absl::StatusCode::kFailedPrecondition,
+                     {"SCENE_IN_USE", name, "a job that has not ended solves it",
+                      "cancel the job first"});
+  }
+  return scenes_.Delete(name);
+}
+
+}  // namespace lambert::server

@@ -1,0 +1,90 @@
+// The coordinator without its network: stores, work and jobs, and what clients may ask of them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "absl/status/statusor.h"
+#include "absl/synchronization/notification.h"
+#include "lambert/v1/solve_job_service.pb.h"
+#include "radiosity/scene/load_gltf.h"
+#include "server/base/clock.h"
+#include "server/base/record_store.h"
+#include "server/base/task_pool.h"
+#include "server/blobs/blob_refs.h"
+#include "server/blobs/blob_store.h"
+#include "server/blobs/uploads.h"
+#include "server/jobs/job_store.h"
+#include "server/run/job_runner.h"
+#include "server/run/scheduler.h"
+#include "server/scenes/scene_store.h"
+#include "server/work/work_table.h"
+
+namespace lambert::server {
+
+struct CoordinatorOptions {
+  std::string data_folder;                       // "": everything in memory, gone with the process
+  int64_t max_store_bytes = int64_t{8} << 30;    // of blobs in memory; unused with a data folder
+  UploadLimits uploads;
+  SceneLimits scene;
+  int64_t max_patches = 20'000'000;              // of one job
+  int max_running_jobs = 2;                      // > 0; others wait
+  int max_waiting_jobs = 100;                    // jobs that have not ended, > 0
+  WorkOptions work;
+  std::string unit_version;                      // "": that of this program
+  Clock clock = SteadyNow;
+  Log log = [](const std::string&) {};
+};
+
+// Thread safe. The methods that are slow say so.
+class Coordinator {
+ public:
+  // With a data folder: finds scenes and jobs of an earlier run and goes on with them.
+  static absl::StatusOr<std::unique_ptr<Coordinator>> Start(const CoordinatorOptions& options);
+  // Stops jobs where they are; waits for the step of those that are building patches.
+  ~Coordinator();
+
+  // What would be done for a scene. Slow.
+  absl::StatusOr<v1::PlanSceneResponse> PlanScene(const v1::PlanSceneRequest& request);
+  absl::StatusOr<v1::SolveJob> CreateJob(const v1::CreateSolveJobRequest& request);
+  absl::StatusOr<v1::SolveJob> CancelJob(const std::string& name);
+  // SCENE_IN_USE while a job that has not ended solves it.
+  absl::Status DeleteScene(const std::string& name);
+  // Ends held calls, steps and watchers; jobs stay as they are. What comes later is refused. One
+  // thread.
+  void Shutdown();
+  bool is_shutting_down() const { return stopping_.HasBeenNotified(); }
+
+  BlobStore& blobs() { return *blobs_; }
+  BlobRefs& refs() { return refs_; }
+  Uploads& uploads() { return uploads_; }
+  SceneStore& scenes() { return scenes_; }
+  JobStore& jobs() { return jobs_; }
+  WorkTable& work() { return work_; }
+  TaskPool& pool() { return pool_; }
+
+ private:
+  Coordinator(const CoordinatorOptions& options, std::unique_ptr<BlobStore> blobs,
+              std::unique_ptr<RecordStore> records);
+  absl::Status Restore();
+  void KeepHouse();
+
+  const CoordinatorOptions options_;
+  const std::string unit_version_;
+  const std::unique_ptr<BlobStore> blobs_;
+  const std::unique_ptr<RecordStore> records_;
+  BlobRefs refs_;
+  Uploads uploads_;
+  SceneStore scenes_;
+  JobStore jobs_;
+  WorkTable work_;
+  JobRunner runner_;
+  std::unique_ptr<Scheduler> scheduler_;
+  TaskPool pool_;
+  absl::Notification stopping_;
+  std::thread housekeeper_;
+};
+
+}  // namespace lambert::server

@@ -1,0 +1,197 @@
+#include "server/jobs/job_store.h"
+
+#include <algorithm>
+#include <random>
+#include <utility>
+
+#include "google/protobuf/util/message_differencer.h"
+#include "google/protobuf/util/time_util.h"
+#include "lambert/v1/snapshot_service.pb.h"
+#include "radiosity/core/digest.h"
+#include "radiosity/core/error.h"
+
+namespace lambert::server {
+namespace {
+
+constexpr char kJobs[] = "jobs";
+constexpr char kSnapshots[] = "snapshots";
+constexpr char kCheckpoints[] = "checkpoints";
+constexpr char kPrefix[] = "solveJobs/";
+constexpr size_t kMaxIdLength = 63;
+constexpr size_t kMaxRequestIdLength = 128;
+
+bool IsId(const std::string& id) {
+  auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (id.empty() || id.size() > kMaxIdLength || !is_letter(id.front()) || id.back() == '-') {
+    return false;
+  }
+  return std::all_of(id.begin(), id.end(),
+                     [&](char c) { return is_letter(c) || is_digit(c) || c == '-'; });
+}
+
+// The id that a request asks for. One with a request id only always gets the same.
+absl::StatusOr<std::string> ChooseId(const v1::CreateSolveJobRequest& request) {
+  if (!request.solve_job_id().empty()) {
+    if (IsId(request.solve_job_id())) return request.solve_job_id();
+    return MakeError(absl::StatusCode::kInvalidArgument,
+                     {"FIELD_INVALID", "solve_job_id", "'" + request.solve_job_id() + "' is no id",
+                      "use up to 63 of a-z, 0-9 and -, a letter first and no - last"});
+  }
+  if (request.request_id().size() > kMaxRequestIdLength) {
+    return MakeError(absl::StatusCode::kInvalidArgument,
+                     {"FIELD_INVALID", "request_id", "is longer than 128 characters",
+                      "use a random UUID"});
+  }
+  std::random_device random;
+  std::string seed = request.request_id();
+  if (seed.empty()) seed = std::to_string(random()) + "-" + std::to_string(random());
+  return "job-" + Sha256Hex(seed).substr(0, 12);
+}
+
+absl::Status JobNotFound(const std::string& name) {
+  return MakeError(absl::StatusCode::kNotFound,
+                   {"JOB_NOT_FOUND", name, "there is no such job", "list the jobs there are"});
+}
+
+}  // namespace
+
+JobStore::JobStore(BlobRefs* refs, RecordStore* records, int max_waiting)
+    : refs_(refs), records_(records), max_waiting_(max_waiting) {}
+
+absl::StatusOr<std::vector<std::shared_ptr<Job>>> JobStore::Restore() {
+  absl::StatusOr<std::map<std::string, std::string>> records = records_->LoadAll(kJobs);
+  if (!records.ok()) return records.status();
+  std::vector<std::shared_ptr<Job>> unfinished;
+  absl::MutexLock lock(&mutex_);
+  for (const auto& [id, bytes] : *records) {
+    v1::SolveJob record;
+    if (!record.ParseFromString(bytes)) continue;
+    v1::ListSnapshotsResponse history;
+    history.ParseFromString(records_->Load(kSnapshots, id).value_or(""));
+    if (record.has_patch_set_digest()) refs_->Add(record.patch_set_digest().sha256());
+    if (record.has_latest_snapshot()) {
+      refs_->Add(record.latest_snapshot().payload_digest().sha256());
+    }
+    const bool ended = IsFinal(record.state());
+    if (!ended) record.set_state(v1::SolveJob::STATE_QUEUED);
+    std::vector<v1::Snapshot> snapshots(history.snapshots().begin(), history.snapshots().end());
+    auto job = std::make_shared<Job>(std::move(record), std::move(snapshots));
+    if (!ended) unfinished.push_back(job);
+    jobs_[job->name()] = job;
+  }
+  return unfinished;
+}
+
+absl::StatusOr<JobStore::Created> JobStore::Create(const v1::CreateSolveJobRequest& request,
+                                                   const std::string& scene_display_name,
+                                                   const std::string& unit_version) {
+  absl::StatusOr<std::string> id = ChooseId(request);
+  if (!id.ok()) return id.status();
+  v1::SolveJob record;
+  record.set_name(kPrefix + *id);
+  record.set_scene(request.scene());
+  record.set_scene_display_name(scene_display_name);
+  *record.mutable_spec() = request.spec();
+  record.set_state(v1::SolveJob::STATE_QUEUED);
+  record.set_unit_version(unit_version);
+  *record.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
+  auto job = std::make_shared<Job>(record);
+  {
+    absl::MutexLock lock(&mutex_);
+    if (auto known = jobs_.find(record.name()); known != jobs_.end()) {
+      const v1::SolveJob other = known->second->Get();
+      const bool is_equal =
+          other.scene() == record.scene() &&
+          google::protobuf::util::MessageDifferencer::Equals(other.spec(), record.spec());
+      if (is_equal) return Created{known->second, false};
+      return MakeError(absl::StatusCode::kAlreadyExists,
+                       {"JOB_ID_TAKEN", record.name(), "a job of this name solves something else",
+                        "choose another id"});
+    }
+    const auto waiting = std::count_if(jobs_.begin(), jobs_.end(),
+                                       [](const auto& entry) { return !entry.second->ended(); });
+    if (waiting >= max_waiting_) {
+      return MakeError(absl::StatusCode::kResourceExhausted,
+                       {"TOO_MANY_JOBS", record.name(),
+                        std::to_string(waiting) + " jobs have not ended yet",
+                        "wait for some, or cancel them"});
+    }
+    jobs_[record.name()] = job;
+  }
+  absl::Status saved = Save(*job);
+  if (saved.ok()) return Created{job, true};
+  absl::MutexLock lock(&mutex_);
+  jobs_.erase(record.name());
+  return saved;
+}
+
+absl::StatusOr<std::shared_ptr<Job>> JobStore::Find(const std::string& name) const {
+  absl::MutexLock lock(&mutex_);
+  auto job = jobs_.find(name);
+  if (job == jobs_.end()) return JobNotFound(name);
+  return job->second;
+}
+
+absl::StatusOr<Page<std::shared_ptr<Job>>> JobStore::List(int page_size,
+                                                          const std::string& page_token) const {
+  absl::MutexLock lock(&mutex_);
+  return TakePage(jobs_, page_size, page_token);
+}
+
+std::vector<std::shared_ptr<Job>> JobStore::All() const {
+  absl::MutexLock lock(&mutex_);
+  std::vector<std::shared_ptr<Job>> all;
+  for (const auto& [name, job] : jobs_) all.push_back(job);
+  return all;
+}
+
+absl::Status JobStore::Delete(const std::string& name) {
+  std::shared_ptr<Job> job;
+  {
+    absl::MutexLock lock(&mutex_);
+    auto found = jobs_.find(name);
+    if (found == jobs_.end()) return JobNotFound(name);
+    if (!found->second->ended()) {
+      return MakeError(absl::StatusCode::kFailedPrecondition,
+                       {"JOB_NOT_ENDED", name, "the job has not ended", "cancel it first"});
+    }
+    job = found->second;
+    jobs_.erase(found);
+  }
+  const v1::SolveJob record = job->Get();
+  for (const char* kind : {kJobs, kSnapshots, kCheckpoints}) records_->Delete(kind, job->id());
+  if (record.has_patch_set_digest()) refs_->Release(record.patch_set_digest().sha256());
+  if (record.has_latest_snapshot()) {
+    refs_->Release(record.latest_snapshot().payload_digest().sha256());
+  }
+  return absl::OkStatus();
+}
+
+bool JobStore::UsesScene(const std::string& scene) const {
+  for (const std::shared_ptr<Job>& job : All()) {
+    if (!job->ended() && job->Get().scene() == scene) return true;
+  }
+  return false;
+}
+
+absl::Status JobStore::Save(const Job& job) {
+  if (!records_->keeps()) return absl::OkStatus();
+  v1::ListSnapshotsResponse history;
+  for (const v1::Snapshot& snapshot : job.snapshots()) *history.add_snapshots() = snapshot;
+  absl::Status status = records_->Save(kSnapshots, job.id(), history.SerializeAsString());
+  if (!status.ok()) return status;
+  return records_->Save(kJobs, job.id(), job.Get().SerializeAsString());
+}
+
+absl::Status JobStore::SaveCheckpoint(const Job& job, const std::string& checkpoint) {
+  return records_->Save(kCheckpoints, job.id(), checkpoint);
+}
+
+std::string JobStore::LoadCheckpoint(const Job& job) {
+  return records_->Load(kCheckpoints, job.id()).value_or("");
+}
+
+void JobStore::DeleteCheckpoint(const Job& job) { records_->Delete(kCheckpoints, job.id()); }
+
+}  // namespace lambert::server

@@ -1,0 +1,65 @@
+// All jobs, in memory and as records.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "absl/synchronization/mutex.h"
+#include "lambert/v1/solve_job_service.pb.h"
+#include "server/base/pages.h"
+#include "server/base/record_store.h"
+#include "server/blobs/blob_refs.h"
+#include "server/jobs/job.h"
+
+namespace lambert::server {
+
+// Thread safe.
+class JobStore {
+ public:
+  // `max_waiting`: jobs that have not ended, > 0; more: TOO_MANY_JOBS.
+  JobStore(BlobRefs* refs, RecordStore* records, int max_waiting);
+
+  // Finds the jobs of an earlier run again; returns those that have not ended, queued. Call it before
+  // anything else.
+  absl::StatusOr<std::vector<std::shared_ptr<Job>>> Restore();
+
+  struct Created {
+    std::shared_ptr<Job> job;
+    bool is_new = false;
+  };
+  // Makes a queued job, or finds the one that the same request made. Requires: the scene is there and
+  // the spec valid. FIELD_INVALID, JOB_ID_TAKEN, TOO_MANY_JOBS, STORE_FULL.
+  absl::StatusOr<Created> Create(const v1::CreateSolveJobRequest& request,
+                                 const std::string& scene_display_name,
+                                 const std::string& unit_version);
+  // JOB_NOT_FOUND.
+  absl::StatusOr<std::shared_ptr<Job>> Find(const std::string& name) const;
+  absl::StatusOr<Page<std::shared_ptr<Job>>> List(int page_size,
+                                                  const std::string& page_token) const;
+  std::vector<std::shared_ptr<Job>> All() const;
+  // JOB_NOT_FOUND, JOB_NOT_ENDED. Releases the job's blobs.
+  absl::Status Delete(const std::string& name);
+  // True while a job that has not ended solves the scene.
+  bool UsesScene(const std::string& scene) const;
+
+  // Writes a job's record and the descriptions of its snapshots. STORE_FULL.
+  absl::Status Save(const Job& job);
+  // The solver's state after a pass. Does nothing where records are not kept.
+  absl::Status SaveCheckpoint(const Job& job, const std::string& checkpoint);
+  bool keeps_checkpoints() const { return records_->keeps(); }
+  // Empty where there is none.
+  std::string LoadCheckpoint(const Job& job);
+  void DeleteCheckpoint(const Job& job);
+
+ private:
+  BlobRefs* const refs_;
+  RecordStore* const records_;
+  const int max_waiting_;
+  mutable absl::Mutex mutex_;
+  std::map<std::string, std::shared_ptr<Job>> jobs_ ABSL_GUARDED_BY(mutex_);  // by name
+};
+
+}  // namespace lambert::server

@@ -1,0 +1,119 @@
+#include "server/jobs/spec.h"
+
+#include <algorithm>
+
+#include "radiosity/core/error.h"
+
+namespace lambert::server {
+namespace {
+
+PatchOptions DecodePatch(const v1::PatchSpec& spec, int64_t max_patches) {
+  PatchOptions options;
+  options.max_edge_m = spec.max_edge_meters();
+  options.two_sided = spec.two_sided();
+  options.emission_unit = spec.emission_unit() == v1::PatchSpec::EMISSION_UNIT_WATT
+                              ? EmissionUnit::kWattPerM2PerSr
+                              : EmissionUnit::kNit;
+  if (spec.has_max_patch_count()) options.max_patches = spec.max_patch_count();
+  options.max_patches = std::min(options.max_patches, max_patches);
+  return options;
+}
+
+PyramidOptions DecodePyramids(const v1::PyramidSpec& spec) {
+  PyramidOptions options;
+  if (spec.has_initial_count()) options.initial = spec.initial_count();
+  if (spec.has_split_count()) options.split = spec.split_count();
+  if (spec.has_depth()) options.depth = spec.depth();
+  if (spec.has_alpha1()) options.alpha1 = spec.alpha1();
+  if (spec.has_alpha2()) options.alpha2 = spec.alpha2();
+  if (spec.sampling() == v1::PyramidSpec::SAMPLING_SOLID_ANGLE) {
+    options.sampling = PyramidSampling::kSolidAngle;
+  }
+  options.count_black = spec.count_black();
+  if (spec.has_use_clusters()) options.use_clusters = spec.use_clusters();
+  options.min_rays = spec.min_ray_count();
+  return options;
+}
+
+}  // namespace
+
+absl::StatusOr<JobOptions> DecodeSpec(const v1::SolveSpec& spec, int64_t max_patches) {
+  JobOptions options;
+  options.patch = DecodePatch(spec.patch(), max_patches);
+  SolveOptions& solve = options.solve;
+  solve.shoot.method = Method::kAuto;
+  if (!spec.shoot().method().empty()) {
+    absl::StatusOr<Method> method = ParseMethod(spec.shoot().method());
+    if (!method.ok()) return method.status();
+    solve.shoot.method = *method;
+  }
+  solve.shoot.pyramids = DecodePyramids(spec.shoot().pyramids());
+  if (spec.has_seed()) solve.seed = static_cast<uint64_t>(spec.seed());
+  solve.max_error = spec.max_error();
+  solve.max_rays = spec.max_ray_count();
+  solve.max_time_s = spec.max_seconds();
+  if (spec.has_unsent_tolerance()) solve.unsent_tolerance = spec.unsent_tolerance();
+  if (spec.has_max_step_count()) solve.max_steps = spec.max_step_count();
+  if (absl::Status status = options.patch.Validate(); !status.ok()) return status;
+  if (absl::Status status = solve.Validate(); !status.ok()) return status;
+  if (absl::Status status = solve.shoot.Validate(); !status.ok()) return status;
+  return options;
+}
+
+v1::Plan EncodePlan(const Plan& plan, const v1::SolveSpec& asked) {
+  v1::Plan proto;
+  v1::SolveSpec& spec = *proto.mutable_spec();
+  spec = asked;
+  spec.mutable_shoot()->set_method(MethodName(plan.options.shoot.method));
+  spec.mutable_shoot()->mutable_pyramids()->set_min_ray_count(plan.options.shoot.pyramids.min_rays);
+  spec.set_seed(static_cast<int64_t>(plan.options.seed));
+  spec.set_max_error(plan.options.max_error);
+  spec.set_max_ray_count(plan.options.max_rays);
+  spec.set_max_seconds(plan.options.max_time_s);
+  for (const PlanItem& item : plan.items) {
+    v1::PlanItem* added = proto.add_items();
+    added->set_item(item.item);
+    added->set_left_out(item.left_out);
+    added->set_reason(item.reason);
+    added->set_saving(item.saving);
+  }
+  proto.set_patch_count(plan.patches);
+  proto.set_worker_size_bytes(plan.worker_bytes);
+  proto.set_first_pass_ray_count(plan.first_pass_rays);
+  return proto;
+}
+
+v1::Progress EncodeProgress(const Progress& progress) {
+  v1::Progress proto;
+  proto.set_pass(progress.pass);
+  proto.set_step(progress.step);
+  proto.set_ray_count(progress.rays);
+  proto.set_seconds(progress.seconds);
+  proto.set_cpu_seconds(progress.cpu_seconds);
+  proto.set_unsent_fraction(progress.unsent_fraction);
+  proto.set_estimated_rms_area(progress.estimated_rms_area);
+  proto.set_estimated_rms_patch(progress.estimated_rms_patch);
+  proto.set_wanted_rms_area(progress.wanted_rms_area);
+  proto.set_max_ray_count(progress.max_rays);
+  return proto;
+}
+
+v1::Warning EncodeWarning(const Warning& warning) {
+  v1::Warning proto;
+  proto.set_reason(warning.reason);
+  proto.set_message(warning.message);
+  return proto;
+}
+
+v1::SolveJob::StopReason EncodeStopReason(StopReason reason) {
+  switch (reason) {
+    case StopReason::kNone: return v1::SolveJob::STOP_REASON_UNSPECIFIED;
+    case StopReason::kErrorReached: return v1::SolveJob::STOP_REASON_ERROR_REACHED;
+    case StopReason::kRaysSpent: return v1::SolveJob::STOP_REASON_RAYS_SPENT;
+    case StopReason::kTimeSpent: return v1::SolveJob::STOP_REASON_TIME_SPENT;
+    case StopReason::kNothingToShoot: return v1::SolveJob::STOP_REASON_NOTHING_TO_SHOOT;
+  }
+  return v1::SolveJob::STOP_REASON_UNSPECIFIED;
+}
+
+}  // namespace lambert::server

@@ -1,0 +1,95 @@
+#include "server/rpc/rpc_server.h"
+
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/health_check_service_interface.h>
+
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "grpc/health/v1/health.pb.h"
+#include "radiosity/core/error.h"
+#include "server/coordinator.h"
+#include "server/rpc/services.h"
+
+namespace lambert::server {
+namespace {
+
+// Calls that do not end by themselves at shutdown are cut off after that.
+constexpr auto kGrace = std::chrono::milliseconds(500);
+constexpr int kKeepaliveMs = 20'000;
+constexpr int kMinClientPingMs = 1'000;
+
+void SetKeepalive(grpc::ServerBuilder& builder) {
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveMs);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  // Clients may ping often, to see a lost server soon.
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
+                             kMinClientPingMs);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PING_STRIKES, 0);
+  // Two servers on one port would each get half of the calls.
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+}
+
+class RpcServerImpl : public RpcServer {
+ public:
+  explicit RpcServerImpl(Coordinator* coordinator) : coordinator_(coordinator) {
+    for (auto make : {MakeBlobService, MakeSceneService, MakeSolveJobService, MakeSnapshotService,
+                      MakeFarmService, MakeWorkerService}) {
+      services_.push_back(make(coordinator));
+    }
+  }
+  ~RpcServerImpl() override {
+    coordinator_->Shutdown();
+    if (server_ == nullptr) return;
+    server_->GetHealthCheckService()->SetServingStatus(false);
+    server_->Shutdown(std::chrono::system_clock::now() + kGrace);
+    server_->Wait();
+  }
+
+  absl::Status Listen(const std::string& listen) {
+    grpc::ServerBuilder builder;
+    SetKeepalive(builder);
+    int port = 0;
+    if (!listen.empty()) {
+      builder.AddListeningPort(listen, grpc::InsecureServerCredentials(), &port);
+    }
+    for (auto& service : services_) builder.RegisterService(service.get());
+    server_ = builder.BuildAndStart();
+    if (server_ == nullptr || (!listen.empty() && port == 0)) {
+      return MakeError(absl::StatusCode::kUnavailable,
+                       {"ADDRESS_IN_USE", listen, "the server cannot listen there",
+                        "choose another --listen HOST:PORT"});
+    }
+    address_ = listen.substr(0, listen.rfind(':') + 1) + std::to_string(port);
+    return absl::OkStatus();
+  }
+
+  std::string address() const override { return address_; }
+  std::shared_ptr<grpc::Channel> InProcessChannel() override {
+    return server_->InProcessChannel(grpc::ChannelArguments());
+  }
+
+ private:
+  Coordinator* const coordinator_;
+  std::vector<std::unique_ptr<grpc::Service>> services_;
+  std::unique_ptr<grpc::Server> server_;
+  std::string address_;
+};
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<RpcServer>> RpcServer::Start(Coordinator* coordinator,
+                                                            const std::string& listen) {
+  grpc::EnableDefaultHealthCheckService(true);
+  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  // Links the descriptor of the health service, which reflection shows.
+  grpc::health::v1::HealthCheckRequest::descriptor();
+  auto server = std::make_unique<RpcServerImpl>(coordinator);
+  if (absl::Status status = server->Listen(listen); !status.ok()) return status;
+  return server;
+}
+
+}  // namespace lambert::server

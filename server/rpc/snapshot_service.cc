@@ -1,0 +1,154 @@
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "absl/synchronization/mutex.h"
+#include "lambert/v1/snapshot_service.grpc.pb.h"
+#include "radiosity/core/error.h"
+#include "server/coordinator.h"
+#include "server/rpc/reply.h"
+#include "server/rpc/services.h"
+#include "server/stream/watch_cursor.h"
+
+namespace lambert::server {
+namespace {
+
+constexpr char kSnapshots[] = "/snapshots/";
+
+absl::Status SnapshotNotFound(const std::string& name) {
+  return MakeError(absl::StatusCode::kNotFound, {"SNAPSHOT_NOT_FOUND", name,
+                                                 "there is no such snapshot", "ask for latest"});
+}
+
+// One watcher. At most one write is under way; news that comes meanwhile waits in the job, where
+// newer news replaces it. Lives until gRPC calls OnDone.
+class WatchReactor : public grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>,
+                     public JobListener,
+                     public std::enable_shared_from_this<WatchReactor> {
+ public:
+  static grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>* Start(
+      Coordinator* coordinator, const v1::WatchSnapshotsRequest& request) {
+    auto reactor = std::make_shared<WatchReactor>(coordinator);
+    reactor->self_ = reactor;
+    absl::StatusOr<std::shared_ptr<Job>> job = coordinator->jobs().Find(request.parent());
+    if (!job.ok()) {
+      reactor->Finish(ToGrpc(job.status()));
+      return reactor.get();
+    }
+    reactor->cursor_.emplace(*job, &coordinator->blobs(), request);
+    (*job)->AddListener(reactor);
+    reactor->OnNews();
+    return reactor.get();
+  }
+  explicit WatchReactor(Coordinator* coordinator) : coordinator_(coordinator) {}
+
+  void OnNews() override {
+    absl::MutexLock lock(&mutex_);
+    Pump();
+  }
+  void OnWriteDone(bool ok) override {
+    absl::MutexLock lock(&mutex_);
+    is_writing_ = false;
+    is_gone_ |= !ok;
+    Pump();
+  }
+  void OnCancel() override {
+    absl::MutexLock lock(&mutex_);
+    is_gone_ = true;
+    Pump();
+  }
+  void OnDone() override { self_.reset(); }
+
+ private:
+  void Pump() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    if (is_writing_ || is_finished_ || !cursor_.has_value()) return;
+    if (is_gone_) return End(absl::CancelledError("the watcher has gone"));
+    if (coordinator_->is_shutting_down()) {
+      return End(MakeError(absl::StatusCode::kUnavailable,
+                           {"SHUTTING_DOWN", "lambert-server", "the server is stopping",
+                            "watch again from the last version"}));
+    }
+    std::optional<v1::WatchSnapshotsResponse> next = cursor_->Next();
+    if (next.has_value()) {
+      message_ = *std::move(next);
+      is_writing_ = true;
+      StartWrite(&message_);
+    } else if (cursor_->done()) {
+      End(absl::OkStatus());
+    }
+  }
+  void End(const absl::Status& status) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    is_finished_ = true;
+    Finish(ToGrpc(status));
+  }
+
+  Coordinator* const coordinator_;
+  std::shared_ptr<WatchReactor> self_;
+  absl::Mutex mutex_;
+  std::optional<WatchCursor> cursor_;
+  v1::WatchSnapshotsResponse message_ ABSL_GUARDED_BY(mutex_);
+  bool is_writing_ ABSL_GUARDED_BY(mutex_) = false;
+  bool is_gone_ ABSL_GUARDED_BY(mutex_) = false;
+  bool is_finished_ ABSL_GUARDED_BY(mutex_) = false;
+};
+
+class SnapshotService : public v1::SnapshotService::CallbackService {
+ public:
+  explicit SnapshotService(Coordinator* coordinator) : coordinator_(coordinator) {}
+
+  grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>* WatchSnapshots(
+      grpc::CallbackServerContext*, const v1::WatchSnapshotsRequest* request) override {
+    return WatchReactor::Start(coordinator_, *request);
+  }
+  grpc::ServerUnaryReactor* GetSnapshot(grpc::CallbackServerContext* context,
+                                        const v1::GetSnapshotRequest* request,
+                                        v1::Snapshot* response) override {
+    return Reply(context, Find(request->name()), response);
+  }
+  grpc::ServerUnaryReactor* ListSnapshots(grpc::CallbackServerContext* context,
+                                          const v1::ListSnapshotsRequest* request,
+                                          v1::ListSnapshotsResponse* response) override {
+    absl::StatusOr<std::shared_ptr<Job>> job = coordinator_->jobs().Find(request->parent());
+    if (!job.ok()) return Reply(context, job.status());
+    std::map<std::string, v1::Snapshot> by_version;
+    for (v1::Snapshot& snapshot : (*job)->snapshots()) {
+      // Leading zeros, so that keys sort like numbers.
+      const std::string version = std::to_string(snapshot.version());
+      by_version[std::string(20 - version.size(), '0') + version] = std::move(snapshot);
+    }
+    absl::StatusOr<Page<v1::Snapshot>> page =
+        TakePage(by_version, request->page_size(), request->page_token());
+    if (!page.ok()) return Reply(context, page.status());
+    for (v1::Snapshot& snapshot : page->items) *response->add_snapshots() = std::move(snapshot);
+    response->set_next_page_token(page->next_page_token);
+    return Reply(context, absl::OkStatus());
+  }
+
+ private:
+  absl::StatusOr<v1::Snapshot> Find(const std::string& name) {
+    const size_t end = name.find(kSnapshots);
+    if (end == std::string::npos) return SnapshotNotFound(name);
+    absl::StatusOr<std::shared_ptr<Job>> job = coordinator_->jobs().Find(name.substr(0, end));
+    if (!job.ok()) return job.status();
+    const std::vector<v1::Snapshot> snapshots = (*job)->snapshots();
+    if (name.substr(end) == std::string(kSnapshots) + "latest" && !snapshots.empty()) {
+      return snapshots.back();
+    }
+    for (const v1::Snapshot& snapshot : snapshots) {
+      if (snapshot.name() == name) return snapshot;
+    }
+    return SnapshotNotFound(name);
+  }
+
+  Coordinator* const coordinator_;
+};
+
+}  // namespace
+
+std::unique_ptr<grpc::Service> MakeSnapshotService(Coordinator* coordinator) {
+  return std::make_unique<SnapshotService>(coordinator);
+}
+
+}  // namespace lambert::server

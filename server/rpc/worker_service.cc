@@ -1,0 +1,189 @@
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "google/protobuf/util/time_util.h"
+#include "lambert/worker/v1/worker_service.grpc.pb.h"
+#include "radiosity/core/digest.h"
+#include "radiosity/core/error.h"
+#include "server/coordinator.h"
+#include "server/rpc/reply.h"
+#include "server/rpc/services.h"
+
+namespace lambert::server {
+namespace {
+
+namespace w1 = ::lambert::worker::v1;
+using google::protobuf::util::TimeUtil;
+
+constexpr char kJobPrefix[] = "solveJobs/";
+constexpr int64_t kMaxResultBytes = int64_t{1} << 30;
+
+google::protobuf::Duration ToProto(Duration duration) {
+  return TimeUtil::NanosecondsToDuration(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count());
+}
+
+w1::Lease Encode(const GrantedLease& granted) {
+  const WorkSetup& setup = granted.step->setup();
+  w1::Lease lease;
+  lease.set_name(granted.name);
+  lease.mutable_unit_key()->set_solve_job(kJobPrefix + setup.job);
+  lease.mutable_unit_key()->set_step_number(granted.step->number());
+  lease.mutable_unit_key()->set_unit_index(granted.unit);
+  lease.set_unit(EncodeUnit(granted.step->units()[granted.unit]));
+  lease.mutable_patch_set_digest()->set_sha256(setup.patch_set_sha256);
+  lease.mutable_patch_set_digest()->set_size_bytes(setup.patch_set_bytes);
+  lease.set_shoot_options(setup.shoot_options);
+  return lease;
+}
+
+SyncRequest Decode(const w1::SyncWorkerSessionRequest& request) {
+  SyncRequest decoded{request.name(), request.sequence(), {}, request.draining()};
+  for (const w1::LeaseReport& report : request.reports()) {
+    decoded.reports.push_back({report.lease(), report.state() == w1::LeaseReport::STATE_FAILED,
+                               report.error_message()});
+  }
+  return decoded;
+}
+
+// A sync that may be held. Finishes exactly once: when the table answers, which it also does when the
+// worker has gone.
+class SyncReactor : public grpc::ServerUnaryReactor {
+ public:
+  SyncReactor(WorkTable* work, const w1::SyncWorkerSessionRequest& request,
+              w1::SyncWorkerSessionResponse* response)
+      : work_(work), session_(request.name()), response_(response) {
+    work_->Sync(Decode(request), this,
+                [this](absl::StatusOr<SyncReply> reply) { Answer(std::move(reply)); });
+  }
+  void OnCancel() override { work_->CancelSync(session_, this); }
+  void OnDone() override { delete this; }
+
+ private:
+  void Answer(absl::StatusOr<SyncReply> reply) {
+    if (!reply.ok()) return Finish(ToGrpc(reply.status()));
+    response_->set_sequence(reply->sequence);
+    for (const GrantedLease& lease : reply->leases) *response_->add_leases() = Encode(lease);
+    for (std::string& lease : reply->revoked) response_->add_revoked_leases(std::move(lease));
+    Finish(grpc::Status::OK);
+  }
+
+  WorkTable* const work_;
+  const std::string session_;
+  w1::SyncWorkerSessionResponse* const response_;
+};
+
+class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest> {
+ public:
+  SubmitReactor(WorkTable* work, w1::SubmitUnitResultResponse* response)
+      : work_(work), response_(response) {
+    StartRead(&request_);
+  }
+  void OnReadDone(bool ok) override {
+    if (!ok) return Finish(ToGrpc(Submit()));
+    if (is_first_) TakeHeader();
+    is_first_ = false;
+    if (bytes_.size() + request_.data().size() > static_cast<size_t>(size_bytes_)) {
+      return Finish(ToGrpc(Invalid("data", "is larger than its digest says or than 1 GiB")));
+    }
+    bytes_ += request_.data();
+    StartRead(&request_);
+  }
+  void OnDone() override { delete this; }
+
+ private:
+  static absl::Status Invalid(const std::string& field, const std::string& what) {
+    return MakeError(absl::StatusCode::kInvalidArgument,
+                     {"FIELD_INVALID", field, what, "use programs of one version"});
+  }
+  void TakeHeader() {
+    submission_.lease = request_.lease();
+    const std::string& job = request_.unit_key().solve_job();
+    submission_.job = job.substr(0, sizeof(kJobPrefix) - 1) == kJobPrefix
+                          ? job.substr(sizeof(kJobPrefix) - 1)
+                          : "";
+    submission_.step_number = request_.unit_key().step_number();
+    submission_.unit = request_.unit_key().unit_index();
+    submission_.digest = request_.result_digest().sha256();
+    submission_.cpu_seconds = request_.cpu_seconds();
+    size_bytes_ = request_.result_digest().size_bytes();
+    if (size_bytes_ < 0 || size_bytes_ > kMaxResultBytes) size_bytes_ = 0;
+  }
+  absl::Status Submit() {
+    if (is_first_ || static_cast<int64_t>(bytes_.size()) != size_bytes_ ||
+        Sha256Hex(bytes_) != submission_.digest) {
+      return MakeError(absl::StatusCode::kInvalidArgument,
+                       {"DIGEST_MISMATCH", submission_.lease,
+                        "the result that arrived is not the one that was announced",
+                        "send it again"});
+    }
+    submission_.bytes = std::move(bytes_);
+    absl::StatusOr<SubmitOutcome> outcome = work_->Submit(submission_);
+    if (!outcome.ok()) return outcome.status();
+    switch (*outcome) {
+      case SubmitOutcome::kAccepted:
+        response_->set_outcome(w1::SubmitUnitResultResponse::OUTCOME_ACCEPTED);
+        break;
+      case SubmitOutcome::kDuplicate:
+        response_->set_outcome(w1::SubmitUnitResultResponse::OUTCOME_DUPLICATE);
+        break;
+      case SubmitOutcome::kObsolete:
+        response_->set_outcome(w1::SubmitUnitResultResponse::OUTCOME_OBSOLETE);
+        break;
+    }
+    return absl::OkStatus();
+  }
+
+  WorkTable* const work_;
+  w1::SubmitUnitResultResponse* const response_;
+  w1::SubmitUnitResultRequest request_;
+  Submission submission_;
+  std::string bytes_;
+  int64_t size_bytes_ = 0;
+  bool is_first_ = true;
+};
+
+class WorkerService : public w1::WorkerService::CallbackService {
+ public:
+  explicit WorkerService(WorkTable* work) : work_(work) {}
+
+  grpc::ServerUnaryReactor* CreateWorkerSession(grpc::CallbackServerContext* context,
+                                                const w1::CreateWorkerSessionRequest* request,
+                                                w1::WorkerSession* response) override {
+    absl::StatusOr<std::string> name =
+        work_->OpenSession(request->worker_id(), request->slot_count(), request->unit_version());
+    if (!name.ok()) return Reply(context, name.status());
+    response->set_name(*name);
+    *response->mutable_sync_interval() = ToProto(work_->options().sync_interval);
+    *response->mutable_expire_duration() = ToProto(work_->options().session_expiry);
+    return Reply(context, absl::OkStatus());
+  }
+  grpc::ServerUnaryReactor* SyncWorkerSession(grpc::CallbackServerContext*,
+                                              const w1::SyncWorkerSessionRequest* request,
+                                              w1::SyncWorkerSessionResponse* response) override {
+    return new SyncReactor(work_, *request, response);
+  }
+  grpc::ServerReadReactor<w1::SubmitUnitResultRequest>* SubmitUnitResult(
+      grpc::CallbackServerContext*, w1::SubmitUnitResultResponse* response) override {
+    return new SubmitReactor(work_, response);
+  }
+  grpc::ServerUnaryReactor* DeleteWorkerSession(grpc::CallbackServerContext* context,
+                                                const w1::DeleteWorkerSessionRequest* request,
+                                                google::protobuf::Empty*) override {
+    work_->CloseSession(request->name());
+    return Reply(context, absl::OkStatus());
+  }
+
+ private:
+  WorkTable* const work_;
+};
+
+}  // namespace
+
+std::unique_ptr<grpc::Service> MakeWorkerService(Coordinator* coordinator) {
+  return std::make_unique<WorkerService>(&coordinator->work());
+}
+
+}  // namespace lambert::server

@@ -1,0 +1,177 @@
+#include "server/run/job_runner.h"
+
+#include <exception>
+#include <utility>
+
+#include "google/protobuf/util/time_util.h"
+#include "radiosity/core/digest.h"
+#include "radiosity/core/error.h"
+#include "radiosity/patch/build_patches.h"
+#include "radiosity/shoot/options_codec.h"
+#include "radiosity/solve/plan.h"
+#include "server/base/status_proto.h"
+#include "server/run/table_executor.h"
+
+namespace lambert::server {
+namespace {
+
+using google::protobuf::util::TimeUtil;
+
+// A snapshot is left out while those before took more than a twentieth of the time.
+constexpr double kPublishCostFactor = 20;
+
+bool IsShutdown(const absl::Status& status) {
+  auto detail = GetErrorDetail(status);
+  return detail.has_value() && detail->reason == "SHUTTING_DOWN";
+}
+
+}  // namespace
+
+void JobRunner::Run(Job& job) {
+  if (!job.Start()) return;
+  absl::Status status;
+  try {
+    status = Solve(job);
+  } catch (const std::exception& error) {  // memory exhausted, at the worst
+    status = MakeError(absl::StatusCode::kResourceExhausted,
+                       {"OUT_OF_MEMORY", job.name(), error.what(), "give the server more memory"});
+  }
+  if (!IsShutdown(status)) Finish(job, status);
+  parts_.work->ForgetJob(job.id());
+}
+
+absl::Status JobRunner::Solve(Job& job) {
+  absl::StatusOr<JobOptions> options = DecodeSpec(job.Get().spec(), parts_.max_patches);
+  if (!options.ok()) return options.status();
+  absl::StatusOr<std::shared_ptr<const PatchSet>> patches = PreparePatches(job, options->patch);
+  if (!patches.ok()) return patches.status();
+  const Plan plan = MakePlan(**patches, options->solve);
+  job.Update([&](v1::SolveJob& record) {
+    *record.mutable_plan() = EncodePlan(plan, record.spec());
+    record.clear_warnings();
+    for (const Warning& warning : (*patches)->warnings) {
+      *record.add_warnings() = EncodeWarning(warning);
+    }
+  });
+  if (absl::Status saved = parts_.jobs->Save(job); !saved.ok()) return saved;
+
+  Solver solver(*patches, plan.options,
+                [this] { return ToSeconds(parts_.clock().time_since_epoch()); });
+  if (const std::string checkpoint = parts_.jobs->LoadCheckpoint(job); !checkpoint.empty()) {
+    if (absl::Status restored = solver.Restore(checkpoint); !restored.ok()) return restored;
+  }
+  const v1::Digest digest = job.Get().patch_set_digest();
+  TableExecutor executor(parts_.work, {job.id(), digest.sha256(), digest.size_bytes(),
+                                       (*patches)->size(), EncodeShootOptions(plan.options.shoot)});
+  return RunPasses(job, solver, executor);
+}
+
+absl::StatusOr<std::shared_ptr<const PatchSet>> JobRunner::PreparePatches(
+    Job& job, const PatchOptions& options) {
+  const v1::SolveJob record = job.Get();
+  if (record.has_patch_set_digest()) {
+    absl::StatusOr<std::shared_ptr<const Blob>> blob =
+        parts_.blobs->Get(record.patch_set_digest().sha256());
+    if (!blob.ok()) return blob.status();
+    absl::StatusOr<PatchSet> patches = DecodePatchSet(std::string((*blob)->bytes()));
+    if (!patches.ok()) return patches.status();
+    return std::make_shared<const PatchSet>(*std::move(patches));
+  }
+  absl::StatusOr<Scene> scene = parts_.scenes->Load(record.scene());
+  if (!scene.ok()) return scene.status();
+  absl::StatusOr<PatchSet> patches = BuildPatches(*scene, options);
+  if (!patches.ok()) return patches.status();
+  std::string bytes = EncodePatchSet(*patches);
+  v1::Digest digest;
+  digest.set_sha256(Sha256Hex(bytes));
+  digest.set_size_bytes(static_cast<int64_t>(bytes.size()));
+  parts_.refs->Add(digest.sha256());
+  absl::Status stored = parts_.blobs->Put(digest.sha256(), std::move(bytes));
+  if (!stored.ok()) {
+    parts_.refs->Release(digest.sha256());
+    return stored;
+  }
+  job.Update([&](v1::SolveJob& changed) { *changed.mutable_patch_set_digest() = digest; });
+  return std::make_shared<const PatchSet>(*std::move(patches));
+}
+
+absl::Status JobRunner::RunPasses(Job& job, Solver& solver, StepExecutor& executor) {
+  bool is_published = false;
+  double published_at_s = 0, cost_s = 0;
+  absl::Status status;
+  while (status.ok() && solver.stop_reason() == StopReason::kNone) {
+    status = solver.RunPass(executor, [&](const Progress& progress) {
+      job.SetProgress(EncodeProgress(progress));
+    });
+    const double now_s = ToSeconds(parts_.clock().time_since_epoch());
+    is_published = false;
+    if (!status.ok() || (cost_s > 0 && now_s - published_at_s < kPublishCostFactor * cost_s)) {
+      continue;
+    }
+    if (absl::Status published = Publish(job, solver); !published.ok()) return published;
+    is_published = true;
+    published_at_s = ToSeconds(parts_.clock().time_since_epoch());
+    cost_s = published_at_s - now_s;
+  }
+  const bool has_news = job.snapshots().empty() || !is_published;
+  if (has_news && !IsShutdown(status) && (status.ok() || solver.MakeSnapshot().progress.rays > 0)) {
+    if (absl::Status published = Publish(job, solver); !published.ok()) return published;
+  }
+  job.Update([&](v1::SolveJob& record) {
+    record.set_stop_reason(EncodeStopReason(solver.stop_reason()));
+    record.set_reached_goal(status.ok() && solver.reached_goal());
+  });
+  return status;
+}
+
+absl::Status JobRunner::Publish(Job& job, const Solver& solver) {
+  const lambert::Snapshot made = solver.MakeSnapshot();
+  std::string payload = EncodeSolution(*made.solution);
+  const v1::Snapshot old = job.Get().latest_snapshot();
+  v1::Snapshot snapshot;
+  snapshot.set_version(old.version() + 1);
+  snapshot.set_name(job.name() + "/snapshots/" + std::to_string(snapshot.version()));
+  *snapshot.mutable_progress() = EncodeProgress(made.progress);
+  const std::string sha256 = Sha256Hex(payload);
+  snapshot.mutable_payload_digest()->set_sha256(sha256);
+  snapshot.mutable_payload_digest()->set_size_bytes(static_cast<int64_t>(payload.size()));
+  *snapshot.mutable_create_time() = TimeUtil::GetCurrentTime();
+  parts_.refs->Add(sha256);
+  if (absl::Status stored = parts_.blobs->Put(sha256, std::move(payload)); !stored.ok()) {
+    parts_.refs->Release(sha256);
+    return stored;
+  }
+  job.AddSnapshot(snapshot);
+  // Watchers have it by now; what follows is for a restart.
+  absl::Status saved;
+  if (parts_.jobs->keeps_checkpoints()) {
+    saved = parts_.jobs->SaveCheckpoint(job, solver.EncodeCheckpoint());
+    if (saved.ok()) saved = parts_.jobs->Save(job);
+  }
+  if (!old.name().empty()) parts_.refs->Release(old.payload_digest().sha256());
+  return saved;
+}
+
+void JobRunner::Finish(Job& job, const absl::Status& status) {
+  job.Update([&](v1::SolveJob& record) {
+    *record.mutable_end_time() = TimeUtil::GetCurrentTime();
+    if (status.ok()) {
+      record.set_state(v1::SolveJob::STATE_SUCCEEDED);
+    } else if (absl::IsCancelled(status)) {
+      record.set_state(v1::SolveJob::STATE_CANCELLED);
+    } else {
+      record.set_state(v1::SolveJob::STATE_FAILED);
+      *record.mutable_error() = ToStatusProto(status);
+    }
+  });
+  parts_.jobs->DeleteCheckpoint(job);
+  const absl::Status saved = parts_.jobs->Save(job);
+  const v1::SolveJob record = job.Get();
+  parts_.log(job.name() + " " + v1::SolveJob::State_Name(record.state()) + " after " +
+             std::to_string(record.progress().ray_count()) + " rays" +
+             (status.ok() ? "" : ": " + std::string(status.message())) +
+             (saved.ok() ? "" : " (its record could not be written: " +
+                                    std::string(saved.message()) + ")"));
+}
+
+}  // namespace lambert::server

@@ -1,0 +1,57 @@
+// Solves one job: scene, patches, plan, passes, snapshots.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "radiosity/patch/patch_set.h"
+#include "radiosity/solve/solver.h"
+#include "server/base/clock.h"
+#include "server/blobs/blob_refs.h"
+#include "server/blobs/blob_store.h"
+#include "server/jobs/job.h"
+#include "server/jobs/job_store.h"
+#include "server/jobs/spec.h"
+#include "server/scenes/scene_store.h"
+#include "server/work/work_table.h"
+
+namespace lambert::server {
+
+using Log = std::function<void(const std::string&)>;  // any thread
+
+// What the runner works with; all of it outlives the runner and is thread safe.
+struct RunnerParts {
+  BlobStore* blobs = nullptr;
+  BlobRefs* refs = nullptr;
+  SceneStore* scenes = nullptr;
+  JobStore* jobs = nullptr;
+  WorkTable* work = nullptr;
+  int64_t max_patches = 0;
+  Clock clock;
+  Log log;
+};
+
+// Thread safe: runs any number of jobs at once, one a thread.
+class JobRunner {
+ public:
+  explicit JobRunner(RunnerParts parts) : parts_(std::move(parts)) {}
+
+  // Blocks until the job has ended, or the server is shutting down: the job then stays as it is, to be
+  // gone on with from its last checkpoint. Never throws.
+  void Run(Job& job);
+
+ private:
+  absl::Status Solve(Job& job);
+  // The job's patch set: built from the scene and stored, or read back after a restart.
+  absl::StatusOr<std::shared_ptr<const PatchSet>> PreparePatches(Job& job,
+                                                                 const PatchOptions& options);
+  absl::Status RunPasses(Job& job, Solver& solver, StepExecutor& executor);
+  absl::Status Publish(Job& job, const Solver& solver);
+  void Finish(Job& job, const absl::Status& status);
+
+  const RunnerParts parts_;
+};
+
+}  // namespace lambert::server

@@ -1,0 +1,50 @@
+// Scenes: manifests of blobs that were parsed once and found good.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "absl/synchronization/mutex.h"
+#include "lambert/v1/scene_service.pb.h"
+#include "radiosity/scene/load_gltf.h"
+#include "radiosity/scene/scene.h"
+#include "server/base/pages.h"
+#include "server/base/record_store.h"
+#include "server/blobs/blob_refs.h"
+#include "server/blobs/blob_store.h"
+
+namespace lambert::server {
+
+// Thread safe. Parsing takes as long as the scene is large: not for gRPC's own threads.
+class SceneStore {
+ public:
+  SceneStore(BlobStore* blobs, BlobRefs* refs, RecordStore* records, const SceneLimits& limits);
+
+  // Finds the scenes of an earlier run again. Call it before anything else.
+  absl::Status Restore();
+
+  // FIELD_INVALID, BLOBS_MISSING, and what LoadGltf refuses; then nothing is left behind.
+  absl::StatusOr<v1::Scene> Create(const v1::CreateSceneRequest& request);
+  // SCENE_NOT_FOUND.
+  absl::StatusOr<v1::Scene> Get(const std::string& name) const;
+  absl::StatusOr<Page<v1::Scene>> List(int page_size, const std::string& page_token) const;
+  absl::Status Delete(const std::string& name);
+  // Parses a scene. SCENE_NOT_FOUND, BLOB_CORRUPT.
+  absl::StatusOr<Scene> Load(const std::string& name) const;
+
+ private:
+  absl::Status CheckBlobs(const v1::Scene& scene) const;
+  // Parses a scene to see that it is good; fills in warnings and time.
+  absl::Status Examine(v1::Scene& scene) const;
+  absl::StatusOr<Scene> Parse(const v1::Scene& scene) const;
+
+  BlobStore* const blobs_;
+  BlobRefs* const refs_;
+  RecordStore* const records_;
+  const SceneLimits limits_;
+  mutable absl::Mutex mutex_;
+  std::map<std::string, v1::Scene> scenes_ ABSL_GUARDED_BY(mutex_);  // by name
+};
+
+}  // namespace lambert::server

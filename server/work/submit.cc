@@ -1,0 +1,87 @@
+// WorkTable::Submit: what becomes of a result.
+#include <utility>
+
+#include "radiosity/core/error.h"
+#include "server/work/work_table.h"
+
+namespace lambert::server {
+
+std::shared_ptr<PublishedStep> WorkTable::FindStep(const Submission& submission) const {
+  auto step = steps_.find(submission.job);
+  if (step == steps_.end() || step->second->number() != submission.step_number) return nullptr;
+  return step->second;
+}
+
+std::string WorkTable::WorkerOf(const std::string& lease) const {
+  const std::string session = lease.substr(0, lease.find("/leases/"));
+  auto found = state_.sessions.find(session);
+  return found == state_.sessions.end() ? session + " (ended)" : found->second.worker_id;
+}
+
+absl::StatusOr<SubmitOutcome> WorkTable::Repeated(const Submission& submission,
+                                                  const std::string& worker, PublishedStep& step) {
+  const UnitState& unit = state_.steps.at(submission.job).units[submission.unit];
+  if (unit.result_digest == submission.digest) return SubmitOutcome::kDuplicate;
+  absl::Status status = MakeError(
+      absl::StatusCode::kDataLoss,
+      {"NONDETERMINISTIC_RESULT",
+       "unit " + std::to_string(submission.unit) + " of " + submission.job,
+       "workers " + unit.result_worker + " and " + worker + " computed different results",
+       "take the faulty one of these machines out of service and solve again"});
+  step.Abort(status);
+  return status;
+}
+
+absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
+  std::shared_ptr<PublishedStep> step;
+  std::string worker;
+  bool is_new = false;
+  {
+    absl::MutexLock lock(&mutex_);
+    step = FindStep(submission);
+    worker = WorkerOf(submission.lease);
+    if (step != nullptr) {
+      if (submission.unit < 0 || submission.unit >= static_cast<int>(step->units().size())) {
+        return MakeError(absl::StatusCode::kInvalidArgument,
+                         {"FIELD_INVALID", "unit_key.unit_index", "there is no such unit",
+                          "use programs of one version"});
+      }
+      const UnitState& unit = state_.steps.at(submission.job).units[submission.unit];
+      is_new = !unit.done || unit.result_digest != submission.digest;
+    }
+  }
+  // A repetition need not be decoded; one that differs must be sound before it accuses anybody.
+  absl::StatusOr<UnitResult> result =
+      is_new ? step->Check(submission.unit, worker, submission.bytes) : UnitResult{};
+  absl::StatusOr<SubmitOutcome> outcome = SubmitOutcome::kObsolete;
+  Calls calls;
+  {
+    absl::MutexLock lock(&mutex_);
+    const bool is_current = step != nullptr && FindStep(submission) == step;
+    if (!result.ok()) {
+      FailLease(submission.lease, std::string(result.status().message()));
+      outcome = result.status();
+    } else if (is_current && state_.steps.at(submission.job).units[submission.unit].done) {
+      outcome = Repeated(submission, worker, *step);
+    } else if (is_current) {
+      FinishUnit(state_, {submission.job, submission.unit}, submission.digest, worker,
+                 submission.cpu_seconds);
+      outcome = SubmitOutcome::kAccepted;
+    }
+    if (auto lease = state_.leases.find(submission.lease); lease != state_.leases.end()) {
+      SessionState& session = state_.sessions.at(lease->second.session);
+      if (outcome.ok() && *outcome == SubmitOutcome::kAccepted) ++session.finished_units;
+      RemoveLease(state_, submission.lease, /*failed=*/false);
+    }
+    TellRevoked();
+    Dispatch(calls);
+  }
+  for (auto& call : calls) call();
+  if (outcome.ok() && *outcome == SubmitOutcome::kAccepted) {
+    result->cpu_seconds = submission.cpu_seconds;
+    step->Merge(*result);
+  }
+  return outcome;
+}
+
+}  // namespace lambert::server

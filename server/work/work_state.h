@@ -1,0 +1,95 @@
+// Who holds which unit: plain data, read by the policy (next_leases.h), changed by WorkTable only.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "server/base/clock.h"
+
+namespace lambert::server {
+
+struct WorkOptions {
+  Duration sync_interval = std::chrono::seconds(2);      // longest hold of a worker's sync, > 0
+  Duration session_expiry = std::chrono::seconds(10);    // silence that ends a session, > sync_interval
+  Duration straggler_floor = std::chrono::milliseconds(100);  // no unit is late before that
+  Duration straggler_unknown = std::chrono::seconds(1);  // ... nor before that, its job's pace unknown
+  double straggler_factor = 2;  // a unit is late after this many times its expected time, >= 1
+  int max_attempts = 5;         // leases of one unit that may end without a result, > 0
+};
+
+// A unit of a published step. A job has at most one step at a time, so the job's id names the step.
+struct UnitRef {
+  std::string job;
+  int unit = 0;
+  auto operator<=>(const UnitRef&) const = default;
+};
+
+struct LeaseState {
+  UnitRef unit;
+  int64_t step_number = 0;
+  std::string session;
+  TimePoint granted;
+  bool revoked = false;  // nobody needs its result; it fills a slot until its worker reports or sends
+  bool told = false;     // its worker was told that it is revoked
+};
+
+struct UnitState {
+  bool done = false;
+  int attempts = 0;              // leases that ended without a result
+  int64_t rays = 0;
+  std::set<std::string> leases;  // names of those that run or wait, none of them revoked
+  std::string result_digest;     // once done
+  std::string result_worker;     // once done: who sent it
+};
+
+struct StepState {
+  int64_t number = 0;
+  std::vector<UnitState> units;
+  std::deque<int> open;          // units that are neither done nor leased, next first
+  std::set<int> leased;          // units that are leased and not done
+};
+
+struct SessionState {
+  std::string worker_id;
+  int slots = 1;
+  bool draining = false;
+  bool waiting = false;           // a sync is held: leases can be granted now
+  TimePoint last_seen;            // when its last sync began
+  std::set<std::string> leases;   // names
+  int64_t finished_units = 0;
+
+  int FreeSlots() const { return slots - static_cast<int>(leases.size()); }
+};
+
+struct WorkState {
+  std::map<std::string, StepState> steps;        // by job id
+  std::map<std::string, SessionState> sessions;  // by name
+  std::map<std::string, LeaseState> leases;      // by name
+  std::map<std::string, double> seconds_per_ray;  // by job id: measured pace of its units
+};
+
+// Publishes a step with one open unit for each element of `rays`. Requires: the job has none.
+void AddStep(WorkState& state, const std::string& job, int64_t number,
+             const std::vector<int64_t>& rays);
+
+// Takes a job's step away; its leases are revoked. Does nothing where there is none.
+void RemoveStep(WorkState& state, const std::string& job);
+
+// Lends a unit to a session. Requires: both are there, the unit is not done, the name is new.
+void AddLease(WorkState& state, const UnitRef& unit, const std::string& session,
+              const std::string& lease, TimePoint now);
+
+// Takes a lease away. A unit that is not done and has no lease left opens again, as the next to be
+// granted; `failed` counts an attempt. Does nothing where there is no such lease.
+void RemoveLease(WorkState& state, const std::string& lease, bool failed);
+
+// Marks a unit done, revokes its leases and learns the job's pace. Requires: the unit is not done.
+void FinishUnit(WorkState& state, const UnitRef& unit, const std::string& digest,
+                const std::string& worker, double cpu_seconds);
+
+}  // namespace lambert::server

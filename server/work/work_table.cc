@@ -1,0 +1,336 @@
+#include "server/work/work_table.h"
+
+#include <set>
+#include <utility>
+
+#include "radiosity/core/error.h"
+
+namespace lambert::server {
+namespace {
+
+constexpr int kMaxSlots = 4096;
+constexpr size_t kMaxWorkerIdLength = 128;
+
+absl::Status ShuttingDown() {
+  return MakeError(absl::StatusCode::kUnavailable, {"SHUTTING_DOWN", "lambert-server",
+                                                    "the server is stopping", "try again later"});
+}
+
+absl::Status SessionNotFound(const std::string& session) {
+  return MakeError(absl::StatusCode::kNotFound, {"SESSION_NOT_FOUND", session,
+                                                 "there is no such session", "open a new one"});
+}
+
+absl::Status SequenceStale(const SyncRequest& request, int64_t newest) {
+  return MakeError(absl::StatusCode::kAborted,
+                   {"SEQUENCE_STALE", request.session,
+                    "sequence " + std::to_string(request.sequence) + " came after " +
+                        std::to_string(newest),
+                    "go on with the newest"});
+}
+
+absl::Status SyncReplaced(const SyncRequest& request) {
+  return MakeError(absl::StatusCode::kAborted,
+                   {"SYNC_REPLACED", request.session, "a newer call came", "wait for that one"});
+}
+
+absl::Status CheckWorker(const std::string& worker_id, int slots) {
+  if (worker_id.empty() || worker_id.size() > kMaxWorkerIdLength) {
+    return MakeError(absl::StatusCode::kInvalidArgument,
+                     {"FIELD_INVALID", "worker_id", "is empty or longer than 128 characters",
+                      "give the worker another name"});
+  }
+  if (slots < 1 || slots > kMaxSlots) {
+    return MakeError(absl::StatusCode::kInvalidArgument,
+                     {"FIELD_INVALID", "slot_count", "is " + std::to_string(slots),
+                      "use 1 to " + std::to_string(kMaxSlots)});
+  }
+  return absl::OkStatus();
+}
+
+void MakeCalls(std::vector<std::function<void()>>& calls) {
+  for (auto& call : calls) call();
+}
+
+}  // namespace
+
+WorkTable::WorkTable(const WorkOptions& options, std::string unit_version, int64_t epoch,
+                     Clock clock)
+    : options_(options),
+      unit_version_(std::move(unit_version)),
+      clock_(std::move(clock)),
+      next_step_(epoch),
+      next_name_(epoch) {}
+
+absl::StatusOr<std::string> WorkTable::OpenSession(const std::string& worker_id, int slots,
+                                                   const std::string& unit_version) {
+  if (absl::Status status = CheckWorker(worker_id, slots); !status.ok()) return status;
+  if (unit_version != unit_version_) {
+    return MakeError(absl::StatusCode::kFailedPrecondition,
+                     {"UNIT_VERSION_UNSUPPORTED", "worker " + worker_id,
+                      "it computes units as \"" + unit_version + "\", the server wants \"" +
+                          unit_version_ + "\"",
+                      "install the same version of lambert on both"});
+  }
+  Calls calls;
+  std::string name;
+  {
+    absl::MutexLock lock(&mutex_);
+    if (shutting_down_) return ShuttingDown();
+    std::string old;
+    for (const auto& [session_name, session] : state_.sessions) {
+      if (session.worker_id == worker_id) old = session_name;
+    }
+    if (!old.empty()) EndSession(old, true, "the worker started again", calls);
+    name = "workerSessions/" + std::to_string(next_name_++);
+    SessionState& session = state_.sessions[name];
+    session.worker_id = worker_id;
+    session.slots = slots;
+    session.last_seen = clock_();
+    exchanges_[name];
+    Dispatch(calls);
+  }
+  MakeCalls(calls);
+  return name;
+}
+
+void WorkTable::Sync(const SyncRequest& request, const void* call, SyncDone done) {
+  Calls calls;
+  {
+    absl::MutexLock lock(&mutex_);
+    auto session = state_.sessions.find(request.session);
+    auto answer = [&](absl::StatusOr<SyncReply> reply) {
+      calls.push_back([done, reply = std::move(reply)] { done(reply); });
+    };
+    if (shutting_down_) {
+      answer(ShuttingDown());
+    } else if (session == state_.sessions.end()) {
+      answer(SessionNotFound(request.session));
+    } else if (Exchange& exchange = exchanges_[request.session];
+               request.sequence < exchange.sequence) {
+      answer(SequenceStale(request, exchange.sequence));
+    } else if (request.sequence == exchange.sequence && exchange.answered) {
+      answer(exchange.reply);
+    } else {
+      EndHeld(exchange, SyncReplaced(request), calls);
+      if (request.sequence > exchange.sequence) ApplyReports(request);
+      exchange.sequence = request.sequence;
+      exchange.answered = false;
+      exchange.held = std::move(done);
+      exchange.held_call = call;
+      exchange.answer_by = clock_() + options_.sync_interval;
+      session->second.last_seen = clock_();
+      session->second.draining = request.draining;
+      session->second.waiting = true;
+      Dispatch(calls);
+    }
+  }
+  MakeCalls(calls);
+}
+
+void WorkTable::ApplyReports(const SyncRequest& request) {
+  std::set<std::string> listed;
+  SessionState& session = state_.sessions.at(request.session);
+  Exchange& exchange = exchanges_[request.session];
+  for (const LeaseReport& report : request.reports) {
+    auto lease = state_.leases.find(report.lease);
+    const bool is_held = lease != state_.leases.end() && lease->second.session == request.session;
+    if (!is_held) {
+      exchange.revoked.push_back(report.lease);
+    } else if (report.failed) {
+      FailLease(report.lease, report.error_message);
+    } else {
+      listed.insert(report.lease);
+    }
+  }
+  const std::set<std::string> held = session.leases;
+  for (const std::string& lease : held) {
+    if (listed.count(lease) == 0) RemoveLease(state_, lease, /*failed=*/false);
+  }
+}
+
+void WorkTable::CancelSync(const std::string& session, const void* call) {
+  Calls calls;
+  {
+    absl::MutexLock lock(&mutex_);
+    auto exchange = exchanges_.find(session);
+    if (exchange != exchanges_.end() && exchange->second.held != nullptr &&
+        exchange->second.held_call == call) {
+      EndHeld(exchange->second, absl::CancelledError("the caller has gone"), calls);
+      state_.sessions.at(session).waiting = false;
+    }
+  }
+  MakeCalls(calls);
+}
+
+void WorkTable::CloseSession(const std::string& session) {
+  Calls calls;
+  {
+    absl::MutexLock lock(&mutex_);
+    EndSession(session, /*failed=*/false, "", calls);
+    Dispatch(calls);
+  }
+  MakeCalls(calls);
+}
+
+void WorkTable::EndSession(const std::string& name, bool failed, const std::string& why,
+                           Calls& calls) {
+  auto session = state_.sessions.find(name);
+  if (session == state_.sessions.end()) return;
+  const std::set<std::string> leases = session->second.leases;
+  for (const std::string& lease : leases) {
+    if (failed) {
+      FailLease(lease, why);
+    } else {
+      RemoveLease(state_, lease, false);
+    }
+  }
+  EndHeld(exchanges_[name], SessionNotFound(name), calls);
+  exchanges_.erase(name);
+  state_.sessions.erase(name);
+}
+
+void WorkTable::EndHeld(Exchange& exchange, const absl::Status& status, Calls& calls) {
+  if (exchange.held == nullptr) return;
+  calls.push_back([done = std::move(exchange.held), status] { done(status); });
+  exchange.held = nullptr;
+}
+
+void WorkTable::FailLease(const std::string& lease, const std::string& why) {
+  auto found = state_.leases.find(lease);
+  if (found == state_.leases.end()) return;
+  const LeaseState held = found->second;
+  const std::string worker = WorkerOf(lease);
+  RemoveLease(state_, lease, /*failed=*/true);
+  if (held.revoked) return;
+  const UnitState& unit = state_.steps.at(held.unit.job).units[held.unit.unit];
+  if (unit.attempts < options_.max_attempts) return;
+  steps_.at(held.unit.job)
+      ->Abort(MakeError(absl::StatusCode::kInternal,
+                        {"UNIT_ATTEMPTS_EXHAUSTED",
+                         "unit " + std::to_string(held.unit.unit) + " of " + held.unit.job,
+                         "it failed " + std::to_string(unit.attempts) + " times, last on worker " +
+                             worker + ": " + why,
+                         "look at the workers' logs"}));
+}
+
+void WorkTable::TellRevoked() {
+  for (auto& [name, session] : state_.sessions) {
+    for (const std::string& name_of_lease : session.leases) {
+      LeaseState& lease = state_.leases.at(name_of_lease);
+      if (!lease.revoked || lease.told) continue;
+      exchanges_[name].revoked.push_back(name_of_lease);
+      lease.told = true;
+    }
+  }
+}
+
+void WorkTable::Dispatch(Calls& calls) {
+  const TimePoint now = clock_();
+  std::map<std::string, std::vector<GrantedLease>> granted;
+  for (const Grant& grant : NextLeases(state_, now, options_)) {
+    const std::string lease = grant.session + "/leases/" + std::to_string(next_name_++);
+    AddLease(state_, grant.unit, grant.session, lease, now);
+    granted[grant.session].push_back({lease, steps_.at(grant.unit.job), grant.unit.unit});
+  }
+  for (auto& [name, session] : state_.sessions) {
+    Exchange& exchange = exchanges_[name];
+    if (exchange.held == nullptr) continue;
+    auto leases = granted.find(name);
+    if (leases != granted.end()) {
+      Answer(name, std::move(leases->second), calls);
+    } else if (!exchange.revoked.empty() || exchange.answer_by <= now) {
+      Answer(name, {}, calls);
+    }
+  }
+}
+
+void WorkTable::Answer(const std::string& name, std::vector<GrantedLease> leases, Calls& calls) {
+  Exchange& exchange = exchanges_[name];
+  exchange.reply = {exchange.sequence, std::move(leases), std::move(exchange.revoked)};
+  exchange.revoked.clear();
+  exchange.answered = true;
+  calls.push_back([done = std::move(exchange.held), reply = exchange.reply] { done(reply); });
+  exchange.held = nullptr;
+  state_.sessions.at(name).waiting = false;
+}
+
+absl::StatusOr<UnitResult> WorkTable::RunStep(const WorkSetup& setup,
+                                              const std::vector<WorkUnit>& units) {
+  if (units.empty()) return UnitResult{};
+  std::vector<int64_t> rays;
+  for (const WorkUnit& unit : units) rays.push_back(unit.RayCount());
+  Calls calls;
+  std::shared_ptr<PublishedStep> step;
+  {
+    absl::MutexLock lock(&mutex_);
+    if (shutting_down_) return ShuttingDown();
+    if (auto aborted = aborted_.find(setup.job); aborted != aborted_.end()) return aborted->second;
+    step = std::make_shared<PublishedStep>(setup, next_step_++, units);
+    steps_[setup.job] = step;
+    AddStep(state_, setup.job, step->number(), rays);
+    Dispatch(calls);
+  }
+  MakeCalls(calls);
+  absl::StatusOr<UnitResult> result = step->Wait();
+  calls.clear();
+  {
+    absl::MutexLock lock(&mutex_);
+    RemoveStep(state_, setup.job);
+    steps_.erase(setup.job);
+    TellRevoked();
+    Dispatch(calls);
+  }
+  MakeCalls(calls);
+  return result;
+}
+
+void WorkTable::AbortJob(const std::string& job, const absl::Status& status) {
+  absl::MutexLock lock(&mutex_);
+  aborted_[job] = status;
+  if (auto step = steps_.find(job); step != steps_.end()) step->second->Abort(status);
+}
+
+void WorkTable::ForgetJob(const std::string& job) {
+  absl::MutexLock lock(&mutex_);
+  aborted_.erase(job);
+  state_.seconds_per_ray.erase(job);
+}
+
+void WorkTable::Tick() {
+  Calls calls;
+  {
+    absl::MutexLock lock(&mutex_);
+    std::vector<std::string> silent;
+    for (const auto& [name, session] : state_.sessions) {
+      if (clock_() - session.last_seen > options_.session_expiry) silent.push_back(name);
+    }
+    for (const std::string& name : silent) EndSession(name, true, "the worker fell silent", calls);
+    Dispatch(calls);
+  }
+  MakeCalls(calls);
+}
+
+void WorkTable::Shutdown() {
+  Calls calls;
+  {
+    absl::MutexLock lock(&mutex_);
+    shutting_down_ = true;
+    for (auto& [job, step] : steps_) step->Abort(ShuttingDown());
+    for (auto& [name, exchange] : exchanges_) EndHeld(exchange, ShuttingDown(), calls);
+    for (auto& [name, session] : state_.sessions) session.waiting = false;
+  }
+  MakeCalls(calls);
+}
+
+std::vector<WorkerInfo> WorkTable::ListWorkers() const {
+  absl::MutexLock lock(&mutex_);
+  std::vector<WorkerInfo> workers;
+  for (const auto& [name, session] : state_.sessions) {
+    workers.push_back({session.worker_id, session.slots, static_cast<int>(session.leases.size()),
+                       session.finished_units, ToSeconds(clock_() - session.last_seen)});
+  }
+  return workers;
+}
+
+}  // namespace lambert::server

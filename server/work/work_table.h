@@ -1,0 +1,149 @@
+// Who works on what: worker sessions, leases, and the steps that jobs publish.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "absl/synchronization/mutex.h"
+#include "server/base/clock.h"
+#include "server/work/next_leases.h"
+#include "server/work/published_step.h"
+#include "server/work/work_state.h"
+
+namespace lambert::server {
+
+struct LeaseReport {
+  std::string lease;
+  bool failed = false;
+  std::string error_message;
+};
+
+struct SyncRequest {
+  std::string session;
+  int64_t sequence = 0;
+  std::vector<LeaseReport> reports;  // every lease that the worker holds
+  bool draining = false;
+};
+
+struct GrantedLease {
+  std::string name;
+  std::shared_ptr<const PublishedStep> step;
+  int unit = 0;
+};
+
+struct SyncReply {
+  int64_t sequence = 0;
+  std::vector<GrantedLease> leases;
+  std::vector<std::string> revoked;
+};
+
+// Called exactly once, from any thread, without the table's lock.
+using SyncDone = std::function<void(absl::StatusOr<SyncReply>)>;
+
+struct Submission {
+  std::string lease, job;
+  int64_t step_number = 0;
+  int unit = 0;
+  std::string digest;  // of `bytes`, checked
+  double cpu_seconds = 0;
+  std::string bytes;   // EncodeUnitResult
+};
+
+enum class SubmitOutcome { kAccepted, kDuplicate, kObsolete };
+
+struct WorkerInfo {
+  std::string worker_id;
+  int slots = 0, leases = 0;
+  int64_t finished_units = 0;
+  double silence_s = 0;
+};
+
+// Thread safe. Results are decoded, checked and merged without the table's lock.
+class WorkTable {
+ public:
+  // `epoch` tells runs of a server apart: step numbers and session names grow with it.
+  WorkTable(const WorkOptions& options, std::string unit_version, int64_t epoch, Clock clock);
+
+  const WorkOptions& options() const { return options_; }
+
+  // Returns the session's name. FAILED_PRECONDITION (UNIT_VERSION_UNSUPPORTED), FIELD_INVALID,
+  // SHUTTING_DOWN. A session of the same worker ends.
+  absl::StatusOr<std::string> OpenSession(const std::string& worker_id, int slots,
+                                          const std::string& unit_version);
+  // Holds `done` until there are leases or revocations, or the sync interval has passed.
+  // SESSION_NOT_FOUND, SEQUENCE_STALE, SHUTTING_DOWN; ABORTED (SYNC_REPLACED) when a newer call of
+  // the session comes while this one is held.
+  // `call` identifies the call for CancelSync.
+  void Sync(const SyncRequest& request, const void* call, SyncDone done);
+  // Ends a held call whose caller has gone; does nothing where it is not held any more.
+  void CancelSync(const std::string& session, const void* call);
+  // Reopens the session's leases, without counting an attempt.
+  void CloseSession(const std::string& session);
+  // RESULT_INVALID: refused, the unit opens again. NONDETERMINISTIC_RESULT: the job's step fails.
+  absl::StatusOr<SubmitOutcome> Submit(const Submission& submission);
+
+  // Publishes the units of a step and blocks until all are merged. Errors: UNIT_ATTEMPTS_EXHAUSTED,
+  // NONDETERMINISTIC_RESULT, SHUTTING_DOWN, or what AbortJob was given. One step of a job at a time.
+  absl::StatusOr<UnitResult> RunStep(const WorkSetup& setup, const std::vector<WorkUnit>& units);
+  // Ends the job's step, and each later one, with `status`, until ForgetJob.
+  void AbortJob(const std::string& job, const absl::Status& status);
+  void ForgetJob(const std::string& job);
+
+  // Ends silent sessions, answers calls held long enough, repeats late units. Call it often (50 ms).
+  void Tick();
+  // Ends every step and every held call; later calls fail.
+  void Shutdown();
+
+  std::vector<WorkerInfo> ListWorkers() const;
+
+ private:
+  // A session's calls, beside its SessionState.
+  struct Exchange {
+    int64_t sequence = 0;
+    SyncDone held;              // null: none
+    const void* held_call = nullptr;
+    TimePoint answer_by;
+    bool answered = false;      // `reply` answered `sequence`
+    SyncReply reply;
+    std::vector<std::string> revoked;  // to be told
+  };
+  using Calls = std::vector<std::function<void()>>;  // to be made without the lock
+
+  void ApplyReports(const SyncRequest& request) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Dispatch(Calls& calls) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Answer(const std::string& session, std::vector<GrantedLease> leases, Calls& calls)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void EndHeld(Exchange& exchange, const absl::Status& status, Calls& calls)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void EndSession(const std::string& session, bool failed, const std::string& why, Calls& calls)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void FailLease(const std::string& lease, const std::string& why)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void TellRevoked() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // The step that a submission is for, or null where it is over.
+  std::shared_ptr<PublishedStep> FindStep(const Submission& submission) const
+      ABSL_SHARED_LOCKS_REQUIRED(mutex_);
+  std::string WorkerOf(const std::string& lease) const ABSL_SHARED_LOCKS_REQUIRED(mutex_);
+  // What becomes of a result of a unit that is done already; fails the step where they differ.
+  absl::StatusOr<SubmitOutcome> Repeated(const Submission& submission, const std::string& worker,
+                                         PublishedStep& step) ABSL_SHARED_LOCKS_REQUIRED(mutex_);
+
+  const WorkOptions options_;
+  const std::string unit_version_;
+  const Clock clock_;
+  mutable absl::Mutex mutex_;
+  int64_t next_step_ ABSL_GUARDED_BY(mutex_);
+  int64_t next_name_ ABSL_GUARDED_BY(mutex_);
+  bool shutting_down_ ABSL_GUARDED_BY(mutex_) = false;
+  WorkState state_ ABSL_GUARDED_BY(mutex_);
+  std::map<std::string, Exchange> exchanges_ ABSL_GUARDED_BY(mutex_);  // by session
+  std::map<std::string, std::shared_ptr<PublishedStep>> steps_ ABSL_GUARDED_BY(mutex_);  // by job
+  std::map<std::string, absl::Status> aborted_ ABSL_GUARDED_BY(mutex_);                  // by job
+};
+
+}  // namespace lambert::server
