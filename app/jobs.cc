@@ -89,6 +89,23 @@ ExitCode PrintJob(const client::Job& job, const Options& options) {
   return ExitCode::kDone;
 }
 
+// A job that runs replaces its newest solution now and then, also while it is being fetched.
+absl::StatusOr<RunRecord> CollectLatest(client::Client& client, const std::string& name,
+                                        client::Job& job) {
+  constexpr int kAttempts = 5;
+  for (int attempt = 1;; ++attempt) {
+    auto found = client.GetJob(name);
+    if (!found.ok()) return found.status();
+    job = *std::move(found);
+    if (job.snapshot_version == 0) {
+      return MakeError(absl::StatusCode::kFailedPrecondition,
+                       {"NO_SNAPSHOT", name, "there is no result yet", "fetch again later"});
+    }
+    auto record = CollectRecord(client, job, nullptr);
+    if (record.ok() || !absl::IsNotFound(record.status()) || attempt == kAttempts) return record;
+  }
+}
+
 }  // namespace
 
 absl::StatusOr<ExitCode> RunSubmit(const Options& options, Interrupt& interrupt) {
@@ -141,19 +158,14 @@ absl::StatusOr<ExitCode> RunFetch(const Options& options, Interrupt& interrupt) 
   auto connection = Connection::Open(options, interrupt);
   if (!connection.ok()) return connection.status();
   client::Client& client = (*connection)->client();
-  auto job = client.GetJob(options.job);
-  if (!job.ok()) return job.status();
-  if (job->snapshot_version == 0) {
-    return MakeError(absl::StatusCode::kFailedPrecondition,
-                     {"NO_SNAPSHOT", job->name, "there is no result yet", "fetch again later"});
-  }
-  auto record = CollectRecord(client, *job, nullptr);
+  client::Job job;
+  auto record = CollectLatest(client, options.job, job);
   if (!record.ok()) return record.status();
-  auto snapshots = client.ListSnapshots(job->name);
+  auto snapshots = client.ListSnapshots(job.name);
   if (!snapshots.ok()) return snapshots.status();
   for (const Snapshot& snapshot : *snapshots) {
-    if (snapshot.version > job->snapshot_version) break;
-    record->convergence.push_back(MakeConvergenceRow(job->plan, snapshot.progress));
+    if (snapshot.version > job.snapshot_version) break;
+    record->convergence.push_back(MakeConvergenceRow(job.plan, snapshot.progress));
   }
   if (measurer->wanted()) {
     auto measures = measurer->Measure(*record->patches, *record->snapshot.solution);
@@ -167,7 +179,7 @@ absl::StatusOr<ExitCode> RunFetch(const Options& options, Interrupt& interrupt) 
     if (absl::Status status = log->Append(row); !status.ok()) return status;
   }
   if (absl::Status status = WriteOutputs(options.out_folder, *record); !status.ok()) return status;
-  PrintSummary(*job, *record, options.out_folder, options.json);
+  PrintSummary(job, *record, options.out_folder, options.json);
   return ExitCode::kDone;
 }
 

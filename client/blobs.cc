@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "client/status.h"
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
 
@@ -16,6 +17,12 @@ constexpr std::chrono::duration<double> kQuestionDeadline{30};
 // 30 s, and a second for every 4 MiB.
 std::chrono::duration<double> TransferDeadline(int64_t size_bytes) {
   return std::chrono::duration<double>(30 + static_cast<double>(size_bytes) / (4 << 20));
+}
+
+// True where another client, or our own broken stream, sends the same bytes at the same time.
+bool IsOvertaken(const grpc::Status& status) {
+  const auto detail = GetErrorDetail(FromGrpc(status, "upload"));
+  return detail && (detail->reason == "UPLOAD_REPLACED" || detail->reason == "OFFSET_MISMATCH");
 }
 
 }  // namespace
@@ -87,8 +94,8 @@ absl::Status Blobs::UploadOne(const v1::Digest& digest, const std::string& bytes
     } while (offset < size);
     writer->WritesDone();
     status = writer->Finish();
-    // Another client sends the same bytes: wait a little, then ask how far they are.
-    if (status.error_code() == grpc::StatusCode::ABORTED) {
+    if (IsOvertaken(status)) {
+      // Called away, so that it is asked again a little later how far the bytes are.
       return grpc::Status(grpc::StatusCode::UNAVAILABLE, "another client uploads the same file");
     }
     return status;

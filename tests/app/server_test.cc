@@ -1,0 +1,149 @@
+// The command as a client of servers and workers that are processes of their own.
+#include <csignal>
+
+#include "gtest/gtest.h"
+#include "nlohmann/json.hpp"
+#include "tests/app/command_fixture.h"
+
+namespace lambert::app {
+namespace {
+
+using Json = nlohmann::json;
+
+class ServerTest : public CommandFixture {
+ protected:
+  // Starts a server that keeps its jobs in the folder `data`, on `address`.
+  void StartServer(const std::string& address = "127.0.0.1:0") {
+    server_ = std::make_unique<Process>(
+        std::vector<std::string>{LAMBERT_SERVER, "--listen", address, "--data", "data"}, Here());
+    const std::string announcement = "listening on ";
+    size_t begin = server_->WaitForError(announcement);
+    ASSERT_NE(begin, std::string::npos) << server_->error();
+    server_->WaitForError("\n", begin);
+    const std::string log = server_->error();
+    address_ = log.substr(begin, log.find_first_of(" \n", begin) - begin);
+  }
+  void StartWorker() {
+    worker_ = std::make_unique<Process>(
+        std::vector<std::string>{LAMBERT_WORKER, "--server", address_}, Here());
+  }
+  // With --server behind the other arguments.
+  std::vector<std::string> There(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"--server", address_});
+    return arguments;
+  }
+
+  std::string address_;
+  std::unique_ptr<Process> server_, worker_;
+};
+
+TEST_F(ServerTest, AFarmGivesTheBytesThatOneProcessGives) {
+  StartServer();
+  StartWorker();
+  const Ran there = Run(There({"bake", "room.glb", "-o", "there", "--max-rays", "20000"}));
+  EXPECT_EQ(there.exit_code, 0) << there.error;
+  ExpectAllFiles("there");
+  ASSERT_EQ(Run({"bake", "room.glb", "-o", "here", "--max-rays", "20000"}).exit_code, 0);
+  EXPECT_EQ(Read("here/patches.csv"), Read("there/patches.csv"));
+  EXPECT_EQ(Json::parse(Run({"plan", "room.glb", "--json"}).output),
+            Json::parse(Run(There({"plan", "room.glb", "--json"})).output));
+}
+
+TEST_F(ServerTest, AJobIsSubmittedWatchedFetchedListedAndDeleted) {
+  StartServer();
+  StartWorker();
+  const Ran submitted = Run(There({"submit", "room.glb", "--max-rays", "20000"}));
+  ASSERT_EQ(submitted.exit_code, 0) << submitted.error;
+  const std::string job = submitted.output.substr(0, submitted.output.find('\n'));
+  EXPECT_EQ(job.find("solveJobs/"), 0u);
+  EXPECT_EQ(submitted.output, job + "\n");
+
+  const Ran watched = Run(There({"watch", job, "--json"}));
+  EXPECT_EQ(watched.exit_code, 0) << watched.error;
+  EXPECT_EQ(Json::parse(watched.output)["state"], "succeeded");
+
+  EXPECT_EQ(Run(There({"fetch", job, "-o", "out"})).exit_code, 0);
+  ExpectAllFiles("out");
+
+  const Json jobs = Json::parse(Run(There({"jobs", "--json"})).output);
+  ASSERT_EQ(jobs.size(), 1u);
+  EXPECT_EQ(jobs[0]["job"], job);
+  EXPECT_EQ(jobs[0]["scene"], "room.glb");
+  const Json workers = Json::parse(Run(There({"workers", "--json"})).output);
+  ASSERT_EQ(workers.size(), 1u);
+  EXPECT_GT(workers[0]["finished_units"], 0);
+
+  EXPECT_EQ(Run(There({"delete", job})).exit_code, 0);
+  EXPECT_EQ(Json::parse(Run(There({"jobs", "--json"})).output).size(), 0u);
+  const Ran gone = Run(There({"fetch", job, "-o", "out"}));
+  EXPECT_EQ(gone.exit_code, 1);
+  EXPECT_NE(gone.error.find(job), std::string::npos) << gone.error;
+}
+
+TEST_F(ServerTest, ACancelledJobKeepsItsResult) {
+  StartServer();
+  StartWorker();
+  std::string job = Run(There({"submit", "room.glb", "--max-error", "1e-9"})).output;
+  job.pop_back();
+  const auto watch = Start(There({"watch", job}));
+  ASSERT_NE(watch->WaitForError("error "), std::string::npos) << watch->error();
+  EXPECT_EQ(Run(There({"cancel", job})).exit_code, 0);
+  EXPECT_EQ(watch->Wait(), 130) << watch->error();
+  EXPECT_EQ(Run(There({"fetch", job, "-o", "out"})).exit_code, 0);
+  ExpectAllFiles("out");
+}
+
+TEST_F(ServerTest, CtrlCInWatchLeavesTheJobAlone) {
+  StartServer();
+  StartWorker();
+  std::string job = Run(There({"submit", "room.glb", "--max-error", "1e-9"})).output;
+  job.pop_back();
+  const auto watch = Start(There({"watch", job}));
+  ASSERT_NE(watch->WaitForError("rays"), std::string::npos) << watch->error();
+  watch->Signal(SIGINT);
+  EXPECT_EQ(watch->Wait(), 130) << watch->error();
+  EXPECT_EQ(Json::parse(Run(There({"jobs", "--json"})).output)[0]["state"], "running");
+}
+
+TEST_F(ServerTest, AServerThatIsKilledAndStartedAgainIsGoneOnWith) {
+  StartServer();
+  StartWorker();
+  const auto bake =
+      Start(There({"bake", "room.glb", "-o", "out", "--max-rays", "3M", "--progress", "plain"}));
+  ASSERT_NE(bake->WaitForError("error "), std::string::npos) << bake->error();
+  server_->Signal(SIGKILL);
+  server_->Wait();
+  ASSERT_NE(bake->WaitForError("lost " + address_), std::string::npos) << bake->error();
+  StartServer(address_);
+  EXPECT_EQ(bake->Wait(), 0) << bake->error();
+  EXPECT_NE(bake->error().find("back at " + address_), std::string::npos) << bake->error();
+  ExpectAllFiles("out");
+  ASSERT_EQ(Run({"bake", "room.glb", "-o", "here", "--max-rays", "3M"}).exit_code, 0);
+  EXPECT_EQ(Read("here/patches.csv"), Read("out/patches.csv"));
+}
+
+TEST_F(ServerTest, AServerThatStaysAwayEndsWith4AndSaysHowToGoOn) {
+  StartServer();
+  StartWorker();
+  const auto bake =
+      Start(There({"bake", "room.glb", "-o", "out", "--max-error", "1e-9", "--reconnect", "0.5"}));
+  ASSERT_NE(bake->WaitForError("error "), std::string::npos) << bake->error();
+  server_->Signal(SIGKILL);
+  EXPECT_EQ(bake->Wait(), 4) << bake->error();
+  EXPECT_NE(bake->error().find("lambert watch solveJobs/"), std::string::npos) << bake->error();
+}
+
+TEST_F(ServerTest, CtrlCTwiceLeavesAtOnceAlsoWhenTheServerIsFrozen) {
+  StartServer();
+  StartWorker();
+  const auto bake = Start(There({"bake", "room.glb", "-o", "out", "--max-error", "1e-9"}));
+  ASSERT_NE(bake->WaitForError("error "), std::string::npos) << bake->error();
+  server_->Signal(SIGSTOP);
+  bake->Signal(SIGINT);
+  ASSERT_NE(bake->WaitForError("stopping"), std::string::npos) << bake->error();
+  bake->Signal(SIGINT);
+  EXPECT_EQ(bake->Wait(), 130) << bake->error();
+}
+
+}  // namespace
+}  // namespace lambert::app
