@@ -124,6 +124,13 @@ bool IsFraction(Rgb a) {
 
 bool IsFluxLike(Rgb a) { return IsFinite(a) && a.r >= 0 && a.g >= 0 && a.b >= 0; }
 
+bool IsUsable(const Camera& camera) {
+  const Transform& world = camera.world;
+  return IsFinite(world.x) && IsFinite(world.y) && IsFinite(world.z) &&
+         IsFinite(world.translation) && std::isfinite(camera.yfov_rad) &&
+         std::isfinite(camera.half_height_m) && std::isfinite(camera.aspect);
+}
+
 // A back stands right after its front, and each names the other.
 bool TwinIsRight(const PatchSet& patches, PatchIndex i) {
   const bool back = patches.is_back[i] != 0;
@@ -154,6 +161,9 @@ const char* FindFault(const PatchSet& patches) {
     if (!IsFinite(light.position) || !IsFluxLike(light.intensity_cd)) {
       return "a point light is not finite or is negative";
     }
+  }
+  for (const Camera& camera : patches.cameras) {
+    if (!IsUsable(camera)) return "a camera is not finite";
   }
   return nullptr;
 }

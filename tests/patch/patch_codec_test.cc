@@ -77,6 +77,9 @@ TEST(PatchCodec, ValuesThatWouldHurtLaterAreRefused) {
   patches = Everything();
   patches.point_lights[0].intensity_cd.r = -1;
   expect_refused(patches);
+  patches = Everything();
+  patches.cameras[0].world.y.z = std::nan("");
+  expect_refused(patches);
 }
 
 TEST(PatchCodec, CountsThatDoNotFitAllocateNothing) {
