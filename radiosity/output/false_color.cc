@@ -10,7 +10,7 @@
 namespace lambert {
 namespace {
 
-constexpr double kMostDecades = 2.5;
+constexpr double kMostDecades = 2;
 constexpr std::array<double, 3> kSteps = {1, 2, 5};
 
 // All 1, 2, 5 times powers of ten from below `low` to above `high`.
@@ -45,7 +45,7 @@ LuxScale ChooseLuxScale(const Picture& picture) {
     return seen[static_cast<size_t>(share * static_cast<double>(seen.size() - 1))];
   };
   const double high = rank(0.99);
-  const double low = std::clamp(rank(0.01), high * std::pow(10.0, -kMostDecades), high / 10);
+  const double low = std::clamp(rank(0.03), high * std::pow(10.0, -kMostDecades), high / 5);
   LuxScale scale;
   std::vector<double> numbers = RoundNumbers(low, high);
   const auto above = std::lower_bound(numbers.begin(), numbers.end(), high);

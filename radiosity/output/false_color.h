@@ -18,7 +18,7 @@ struct LuxScale {
 };
 
 // The scale on which the irradiance of the picture reads well: its top is above 99 % of the pixels
-// that show something, its bottom at most two and a half decades lower.
+// that show something, its bottom under 97 % of them but no more than two decades lower.
 LuxScale ChooseLuxScale(const Picture& picture);
 
 // The colour at 0..1 of the scale, from deep blue over green and yellow to red (Mikhailov's Turbo);

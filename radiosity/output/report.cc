@@ -56,7 +56,7 @@ std::string Tiles(const RunRecord& record, const UnitNames& units) {
   std::string html = "<div class=\"tiles\">";
   html += Tile(progress.estimated_rms_area < 0 ? "not known"
                                                : Percent(progress.estimated_rms_area),
-               "estimated error (RMS by area)");
+               "estimated error");
   html += Tile(Quantity(static_cast<double>(progress.rays)), "rays");
   html += Tile(RoundedText(progress.seconds, 3) + " s", "run time");
   html += Tile(Quantity(record.patches->size()), "patches");
@@ -90,7 +90,7 @@ std::string Legend(const LuxScale& scale, const UnitNames& units) {
 }
 
 std::string Pictures(const ReportPictures& pictures, const UnitNames& units) {
-  return "<figure>" + Image(pictures.png, "the solved scene") + "<figcaption>Radiosity as seen from " +
+  return "<figure>" + Image(pictures.png, "the solved scene") + "<figcaption>Radiosity from " +
          EscapeHtml(pictures.view.origin) + "; exposure " +
          RoundedText(pictures.exposure.per_lm_per_m2, 3) + " per " + units.radiosity +
          ".</figcaption></figure><h2>Irradiance</h2><figure>" +
@@ -120,6 +120,23 @@ std::string ErrorChart(const RunRecord& record) {
   std::string html = "<h2>Error against time</h2>";
   if (chart.empty()) return html + "<p class=\"soft\">Too few passes for a curve.</p>";
   return html + "<figure>" + chart + "</figure>";
+}
+
+std::string ReferenceTable(const RunRecord& record) {
+  if (!record.measures.has_value()) return "";
+  const ErrorMeasures& measures = *record.measures;
+  const std::pair<const char*, std::optional<double>> rows[] = {
+      {"RMS, weighted by area", measures.rms_area},
+      {"RMS over patches", measures.rms_patch},
+      {"RMS over the patches of the region", measures.rms_local},
+      {"95th percentile of the relative error", measures.p95},
+      {"Power bias", measures.power_bias}};
+  std::string html = "<h2>Against the reference</h2><table>";
+  for (const auto& [name, measure] : rows) {
+    if (!measure.has_value()) continue;
+    html += "<tr>" + Cell(name) + NumberCell(Percent(*measure)) + "</tr>";
+  }
+  return html + "</table>";
 }
 
 std::string SurfaceTable(const RunRecord& record, const UnitNames& units) {
@@ -226,7 +243,8 @@ std::string EncodeReport(const RunRecord& record, const ReportPictures& pictures
          "<title>" + title + " - Lambert</title><style>" + kReportStyle + "</style></head><body>" +
          "<h1>" + title + "</h1><p class=\"soft\">Radiosity solution by Lambert</p>" +
          Tiles(record, units) + Pictures(pictures, units) + ErrorChart(record) +
-         SurfaceTable(record, units) + Balance(record, units) + PlanTable(record.plan) +
+         ReferenceTable(record) + SurfaceTable(record, units) + Balance(record, units) +
+         PlanTable(record.plan) +
          Warnings(*record.patches) + Facts(record) + "</body></html>\n";
 }
 

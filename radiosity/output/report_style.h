@@ -26,7 +26,7 @@ figcaption, .note { font-size: 0.87rem; margin-top: 0.5rem; }
   font-variant-numeric: tabular-nums; }
 .tiles span { color: var(--soft); font-size: 0.83rem; }
 figure { margin: 0; }
-img { display: block; max-width: 100%; max-height: 92vh; height: auto; border-radius: 6px; }
+img { display: block; width: 100%; height: auto; border-radius: 6px; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: 0.91rem; }
 th { text-align: left; font-weight: 600; color: var(--soft); white-space: nowrap; }

@@ -63,7 +63,7 @@ void AddInsideViews(const Bounds& box, std::vector<View>& views) {
       views.push_back(LookAt(eye, eye + way * box.Diagonal(), kInsideAngle));
     }
   }
-  for (View& view : views) view.origin = "chosen: from inside";
+  for (View& view : views) view.origin = "a view chosen inside the scene";
 }
 
 // How far from the middle of the box `view`, which looks at it, has to stand to see all of it.
@@ -88,7 +88,7 @@ void AddOutsideViews(const Bounds& box, std::vector<View>& views) {
       const Vec3 way{std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
       View view = LookAt(box.Center() + way, box.Center(), kOutsideAngle);
       view.eye = box.Center() + way * FittingDistance(box, view);
-      view.origin = "chosen: from outside";
+      view.origin = "a view chosen outside the scene";
       views.push_back(view);
     }
   }
@@ -127,6 +127,13 @@ Sight Look(const View& view, const PatchSet& patches, const RayScene& scene,
   return sight;
 }
 
+// Cameras come from files: what they say may make no picture.
+bool IsUsable(const View& view) {
+  return IsFinite(view.eye) && IsFinite(view.right) && IsFinite(view.up) &&
+         IsFinite(view.forward) && Length(view.forward) > 0 && std::isfinite(view.half_height) &&
+         view.half_height > 0 && std::isfinite(view.aspect);
+}
+
 // 1 for patches that show light, kUnlitWeight for the dark.
 std::vector<double> LightWeights(const PatchSet& patches, const std::vector<Rgb>& radiosity) {
   double flux = 0, area = 0;
@@ -154,7 +161,7 @@ View::Ray View::RayThrough(double x, double y) const {
 View CameraView(const Camera& camera) {
   View view;
   view.origin =
-      camera.name.empty() ? "the scene's camera" : "camera '" + camera.name + "' of the scene";
+      camera.name.empty() ? "the scene's camera" : "the scene's camera '" + camera.name + "'";
   view.eye = camera.world.translation;
   view.right = camera.world.x;
   view.up = camera.world.y;
@@ -169,7 +176,8 @@ View ChooseView(const PatchSet& patches, const RayScene& scene,
                 const std::vector<Rgb>& radiosity_lm_per_m2) {
   const std::vector<double> weight = LightWeights(patches, radiosity_lm_per_m2);
   for (const Camera& camera : patches.cameras) {
-    View view = CameraView(camera);
+    const View view = CameraView(camera);
+    if (!IsUsable(view)) continue;
     if (Look(view, patches, scene, weight).hit_share >= kSeenShare) return view;
   }
   const Bounds box = BoundsOf(patches);

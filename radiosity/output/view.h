@@ -10,7 +10,7 @@
 namespace lambert {
 
 struct View {
-  std::string origin;          // for people: "camera 'Main' of the scene", "chosen: from inside"
+  std::string origin;          // for people: "the scene's camera 'Main'"
   Vec3 eye;                    // metres, relative to the patch set's origin
   Vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  // orthonormal
   bool perspective = true;

@@ -1,0 +1,78 @@
+#include "radiosity/output/report.h"
+
+#include <gtest/gtest.h>
+
+#include "radiosity/output/chart.h"
+#include "tests/output/known_light.h"
+#include "tests/support/scenes.h"
+
+namespace lambert {
+namespace {
+
+RunRecord SomeRecord() {
+  RunRecord record = RecordOf(PatchesOf(MakeCornell()), [](Vec3) { return Rgb{1, 1, 1}; });
+  for (int pass = 1; pass <= 3; ++pass) {
+    ConvergenceRow row;
+    row.progress.pass = pass;
+    row.progress.seconds = pass;
+    row.progress.estimated_rms_area = pass == 1 ? -1 : 0.1 / pass;
+    record.convergence.push_back(row);
+  }
+  return record;
+}
+
+std::string ReportOf(const RunRecord& record) {
+  ReportPictures pictures;
+  pictures.png = "PNG";
+  pictures.false_color_png = "FALSE";
+  pictures.scale = {1, 10, {1, 2, 5, 10}};
+  pictures.view.origin = "the scene's camera";
+  return EncodeReport(record, pictures);
+}
+
+bool Has(const std::string& page, const std::string& text) {
+  return page.find(text) != std::string::npos;
+}
+
+TEST(EncodeReport, NeedsNoNetworkAndNoScript) {
+  const std::string page = ReportOf(SomeRecord());
+  for (const char* bad : {"http:", "https:", "<script", "<link", "@import", "url("}) {
+    EXPECT_FALSE(Has(page, bad)) << bad;
+  }
+  EXPECT_TRUE(Has(page, "src=\"data:image/png;base64,UE5H\""));
+}
+
+TEST(EncodeReport, ShowsPicturesChartSurfacesBalancePlanAndFacts) {
+  RunRecord record = SomeRecord();
+  const std::string page = ReportOf(record);
+  for (const char* part : {"Irradiance", "Error against time", "<polyline", "Surfaces",
+                           "Balance of flux", "Plan", "pins-1", "123\u202f456"}) {
+    EXPECT_TRUE(Has(page, part)) << part;
+  }
+  EXPECT_TRUE(Has(page, EscapeHtml(record.plan.items[0].reason)));
+  EXPECT_FALSE(Has(page, "Against the reference"));
+  record.measures = ErrorMeasures{0.125, 0.2, std::nullopt, 0.3, 0.4};
+  EXPECT_TRUE(Has(ReportOf(record), "12.5\u2009%"));
+}
+
+TEST(EncodeReport, TellsWarnings) {
+  RunRecord record = SomeRecord();
+  PatchSet patches = *record.patches;
+  patches.warnings.push_back({"NO_EMITTERS", "nothing in the scene emits light"});
+  record.patches = std::make_shared<const PatchSet>(patches);
+  EXPECT_TRUE(Has(ReportOf(record), "nothing in the scene emits light"));
+}
+
+TEST(EncodeReport, NamesFromFilesCannotBecomeMarkup) {
+  RunRecord record = SomeRecord();
+  record.name = "<script>alert(1)</script>";
+  PatchSet patches = *record.patches;
+  patches.node_names[0] = "<img src=x>";
+  record.patches = std::make_shared<const PatchSet>(patches);
+  const std::string page = ReportOf(record);
+  EXPECT_FALSE(Has(page, "<script"));
+  EXPECT_FALSE(Has(page, "<img src=x>"));
+}
+
+}  // namespace
+}  // namespace lambert

@@ -1,0 +1,70 @@
+#include "radiosity/output/run_json.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/output/known_light.h"
+#include "tests/support/scenes.h"
+
+namespace lambert {
+namespace {
+
+using Json = nlohmann::json;
+
+RunRecord SomeRecord() {
+  return RecordOf(PatchesOf(MakeCornell()), [](Vec3) { return Rgb{1, 1, 1}; });
+}
+
+TEST(EncodeRunJson, HoldsOptionsPlanLedgerTotalsAndTimings) {
+  const RunRecord record = SomeRecord();
+  const Json json = Json::parse(EncodeRunJson(record, {}, {0.25}));
+  EXPECT_EQ(json["name"], "room");
+  EXPECT_EQ(json["scene_digest"], std::string(64, 'a'));
+  EXPECT_EQ(json["seed"], 1);
+  EXPECT_EQ(json["options"]["method"], json["method"]);
+  EXPECT_EQ(json["options"]["max_error"], kDefaultMaxError);
+  EXPECT_EQ(json["stop_reason"], "error_reached");
+  EXPECT_EQ(json["versions"]["lambert"], "0.1.0");
+  EXPECT_EQ(json["pins"], "pins-1");
+  EXPECT_EQ(json["plan"]["items"].size(), record.plan.items.size());
+  EXPECT_EQ(json["plan"]["items"][0]["reason"], record.plan.items[0].reason);
+  EXPECT_EQ(json["ledger"]["unit"], "lm");
+  EXPECT_EQ(json["ledger"]["emitted"][1], record.snapshot.solution->ledger.emitted.g);
+  EXPECT_EQ(json["totals"]["rays"], 123456);
+  EXPECT_EQ(json["totals"]["patches"], record.patches->size());
+  EXPECT_EQ(json["timings_s"]["solve"], 1.5);
+  EXPECT_EQ(json["picture"]["exposure_per_lm_per_m2"], 0.25);
+  EXPECT_FALSE(json.contains("measures"));
+}
+
+TEST(EncodeRunJson, WhatIsNotKnownIsNull) {
+  RunRecord record = SomeRecord();
+  record.snapshot.progress.estimated_rms_area = -1;
+  record.measures = ErrorMeasures{0.1, 0.2, std::nullopt, 0.3, 0.4};
+  const Json json = Json::parse(EncodeRunJson(record, {}, {}));
+  EXPECT_TRUE(json["totals"]["estimated_rms_area"].is_null());
+  EXPECT_TRUE(json["measures"]["rms_local"].is_null());
+  EXPECT_EQ(json["measures"]["p95"], 0.3);
+}
+
+TEST(EncodeRunJson, AnInterruptedRunSaysSo) {
+  RunRecord record = SomeRecord();
+  record.interrupted = true;
+  EXPECT_EQ(Json::parse(EncodeRunJson(record, {}, {}))["stop_reason"], "interrupted");
+}
+
+TEST(EncodeRunJson, RadiometricRunsCountWatts) {
+  RunRecord record = SomeRecord();
+  record.patch_options.emission_unit = EmissionUnit::kWattPerM2PerSr;
+  EXPECT_EQ(Json::parse(EncodeRunJson(record, {}, {}))["ledger"]["unit"], "W");
+}
+
+TEST(EncodeRunJson, BytesThatAreNotUtf8AreReplaced) {
+  RunRecord record = SomeRecord();
+  record.name = "room \xff";
+  EXPECT_TRUE(Json::accept(EncodeRunJson(record, {}, {})));
+}
+
+}  // namespace
+}  // namespace lambert

@@ -1,0 +1,163 @@
+#include "radiosity/output/smooth.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/output/known_light.h"
+#include "tests/support/scenes.h"
+
+namespace lambert {
+namespace {
+
+constexpr Paint kGray{{0.5, 0.5, 0.5}, {}};
+
+using CornerValues = std::vector<std::array<Rgb, 3>>;
+
+CornerValues Smoothed(const PatchSet& patches, const std::function<double(Vec3)>& irradiance_lx) {
+  const auto scene = RayScene::Create(patches);
+  EXPECT_TRUE(scene.ok());
+  std::vector<Rgb> values;
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    const double value = irradiance_lx(patches.origin + PatchCentroid(patches, i));
+    values.push_back({value, value, value});
+  }
+  return SmoothIrradiance(patches, FindCornerFans(patches, **scene), values);
+}
+
+// The floor 0..4 x 0..4 of 8 x 8 squares, facing up, and what stands on it.
+SceneMaker Floor() { return SceneMaker().Quad({}, {0, 0, 4}, {4, 0, 0}, kGray, 8, "floor"); }
+
+bool OnFloor(const PatchSet& patches, PatchIndex i) {
+  return patches.node_names[patches.source[i].node] == "floor";
+}
+
+TEST(SmoothIrradiance, CornersOfOneSurfaceThatMeetShareOneValue) {
+  const PatchSet patches = PatchesOf(Floor().Make());
+  const CornerValues light = Smoothed(patches, [](Vec3 p) { return 1 + p.x * p.z; });
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    for (PatchIndex j = 0; j < patches.size(); ++j) {
+      for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) {
+          if (patches.corners[i][a] == patches.corners[j][b]) {
+            ASSERT_EQ(light[i][a], light[j][b]);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(SmoothIrradiance, ALinearFieldIsReproducedInsideAnEvenGrid) {
+  const PatchSet patches = PatchesOf(Floor().Make());
+  const CornerValues light = Smoothed(patches, [](Vec3 p) { return 1 + 2 * p.x; });
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vec3 p = patches.origin + patches.corners[i][corner];
+      const bool inside = p.x > 0.1 && p.x < 3.9 && p.z > 0.1 && p.z < 3.9;
+      // The six triangles around a grid point balance each other.
+      if (inside) EXPECT_NEAR(light[i][corner].g, 1 + 2 * p.x, 1e-6);
+    }
+  }
+}
+
+TEST(SmoothIrradiance, TheEdgesOfARoomStaySharp) {
+  const PatchSet patches = PatchesOf(MakeFurnace(0.5, 1, 4));
+  // Lit by the height alone: every wall is .5, the floor 0, the ceiling 1.
+  auto light_of = [](Vec3 p) { return p.y < 1e-3 ? 0.0 : p.y > 1 - 1e-3 ? 1.0 : 0.5; };
+  const CornerValues light = Smoothed(patches, light_of);
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    const double own = light_of(patches.origin + PatchCentroid(patches, i));
+    for (int corner = 0; corner < 3; ++corner) EXPECT_EQ(light[i][corner].r, own);
+  }
+}
+
+TEST(SmoothIrradiance, ARoundSurfaceIsSmooth) {
+  // Normals of neighbours on the 320-faced sphere turn by less than 20 degrees.
+  const PatchSet patches = PatchesOf(MakeIcosphere(2, kGray));
+  const auto scene = RayScene::Create(patches);
+  ASSERT_TRUE(scene.ok());
+  EXPECT_EQ(FindCornerFans(patches, **scene).fan_count, 162);  // the vertices of the sphere
+}
+
+TEST(SmoothIrradiance, NothingLeaksUnderAPartition) {
+  // One side is lit, the other dark; the wall stands on x = 2, with no vertex in the floor's mesh
+  // and a one-sided face to each side.
+  for (double x : {2.0, 2.03}) {
+    const PatchSet patches =
+        PatchesOf(Floor()
+                      .Quad({x, 0, -1}, {0, 2, 0}, {0, 0, 6}, kGray, 1, "wall")
+                      .Quad({x, 0, -1}, {0, 0, 6}, {0, 2, 0}, kGray, 1, "other side")
+                      .Make());
+    const CornerValues light = Smoothed(patches, [&](Vec3 p) { return p.x < x ? 1.0 : 0.0; });
+    for (PatchIndex i = 0; i < patches.size(); ++i) {
+      const double center = (patches.origin + PatchCentroid(patches, i)).x;
+      if (!OnFloor(patches, i) || std::abs(center - 2) < 0.05) continue;
+      for (int corner = 0; corner < 3; ++corner) {
+        EXPECT_EQ(light[i][corner].r, center < x ? 1.0 : 0.0) << "wall at " << x;
+      }
+    }
+  }
+}
+
+TEST(SmoothIrradiance, AOneSidedPartitionPartsTheFloorToo) {
+  for (bool faces_left : {true, false}) {
+    const Vec3 along{0, 0, 6}, up{0, 2, 0};
+    const PatchSet patches = PatchesOf(
+        Floor()
+            .Quad({2, 0, -1}, faces_left ? along : up, faces_left ? up : along, kGray, 1, "wall")
+            .Make());
+    const CornerValues light = Smoothed(patches, [](Vec3 p) { return p.x < 2 ? 1.0 : 0.0; });
+    for (PatchIndex i = 0; i < patches.size(); ++i) {
+      if (!OnFloor(patches, i)) continue;
+      const double own = (patches.origin + PatchCentroid(patches, i)).x < 2 ? 1.0 : 0.0;
+      for (int corner = 0; corner < 3; ++corner) EXPECT_EQ(light[i][corner].r, own);
+    }
+  }
+}
+
+TEST(SmoothIrradiance, NoDarkCrumbsShowAroundFurniture) {
+  // A box covers 1.1 .. 2.2: the floor under it is dark, patches it covers in part reach out.
+  const PatchSet patches =
+      PatchesOf(Floor().Box({1.1, 0, 1.1}, {2.2, 1, 2.2}, false, {kGray}, 1, "box").Make());
+  auto covered = [](Vec3 p) { return p.x > 1.1 && p.x < 2.2 && p.z > 1.1 && p.z < 2.2; };
+  const CornerValues light = Smoothed(patches, [&](Vec3 p) { return covered(p) ? 0.0 : 1.0; });
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    if (!OnFloor(patches, i)) continue;
+    int outside = 0;
+    for (const Vec3& corner : patches.corners[i]) outside += !covered(patches.origin + corner);
+    for (int corner = 0; corner < 3 && outside > 0; ++corner) {
+      EXPECT_EQ(light[i][corner].r, 1) << "patch " << i;
+    }
+  }
+}
+
+TEST(SmoothIrradiance, BothSidesOfATwoSidedSheetKeepTheirOwnLight) {
+  const PatchSet patches =
+      PatchesOf(SceneMaker().Quad({}, {0, 0, 4}, {4, 0, 0}, {{0.5, 0.5, 0.5}, {}, true}, 4).Make());
+  const auto scene = RayScene::Create(patches);
+  ASSERT_TRUE(scene.ok());
+  std::vector<Rgb> light;
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    light.push_back(patches.is_back[i] ? Rgb{} : Rgb{1, 1, 1});
+  }
+  const CornerValues smooth = SmoothIrradiance(patches, FindCornerFans(patches, **scene), light);
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    for (const Rgb& corner : smooth[i]) EXPECT_EQ(corner, light[i]);
+  }
+}
+
+TEST(SmoothIrradiance, NeverLeavesTheRangeOfThePatches) {
+  const PatchSet patches = PatchesOf(MakeCornell(4));
+  const CornerValues light =
+      Smoothed(patches, [](Vec3 p) { return 2 + std::sin(9 * p.x) * std::cos(7 * p.z); });
+  for (const auto& corners : light) {
+    for (const Rgb& value : corners) {
+      EXPECT_GE(value.r, 1 - 1e-12);
+      EXPECT_LE(value.r, 3 + 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lambert

@@ -1,0 +1,97 @@
+#include "radiosity/output/view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "radiosity/output/bounds.h"
+#include "tests/output/known_light.h"
+#include "tests/support/scenes.h"
+
+namespace lambert {
+namespace {
+
+constexpr Paint kGray{{0.5, 0.5, 0.5}, {}};
+
+View ViewOf(const PatchSet& patches) {
+  const auto scene = RayScene::Create(patches);
+  EXPECT_TRUE(scene.ok());
+  const Solution solution = LitBy(patches, [](Vec3) { return Rgb{1, 1, 1}; });
+  return ChooseView(patches, **scene, solution.radiosity_lm_per_m2);
+}
+
+bool Inside(const Bounds& box, Vec3 p) {
+  return p.x > box.low.x && p.y > box.low.y && p.z > box.low.z && p.x < box.high.x &&
+         p.y < box.high.y && p.z < box.high.z;
+}
+
+TEST(View, RaysOfAPerspectiveMeetTheEdgesOfItsAngle) {
+  View view;
+  view.half_height = 0.5;
+  view.aspect = 2;
+  EXPECT_EQ(view.RayThrough(0.5, 0.5).direction, (Vec3{0, 0, -1}));
+  EXPECT_EQ(view.RayThrough(0, 0).direction, (Vec3{-1, 0.5, -1}));
+  EXPECT_EQ(view.RayThrough(1, 1).direction, (Vec3{1, -0.5, -1}));
+}
+
+TEST(View, RaysOfAnOrthographicCameraAreParallel) {
+  Camera camera;
+  camera.perspective = false;
+  camera.half_height_m = 3;
+  camera.aspect = 1;
+  const View::Ray ray = CameraView(camera).RayThrough(1, 0);
+  EXPECT_EQ(ray.origin, (Vec3{3, 3, 0}));
+  EXPECT_EQ(ray.direction, (Vec3{0, 0, -1}));
+}
+
+TEST(CameraView, OpenAndExtremeAspectsBecomeDrawable) {
+  Camera camera;
+  camera.aspect = 0;
+  EXPECT_EQ(CameraView(camera).aspect, 1.5);
+  camera.aspect = 1000;
+  EXPECT_EQ(CameraView(camera).aspect, 4);
+}
+
+TEST(ChooseView, TakesTheCameraOfTheScene) {
+  const PatchSet patches = PatchesOf(MakeCornell());
+  const View view = ViewOf(patches);
+  EXPECT_EQ(view.eye, patches.cameras[0].world.translation);
+  EXPECT_EQ(view.origin, "the scene's camera 'camera'");
+}
+
+TEST(ChooseView, PassesOverACameraThatSeesNothing) {
+  const PatchSet patches =
+      PatchesOf(SceneMaker()
+                    .Box({}, {1, 1, 1}, false, {kGray})
+                    .LookFrom({5, 0, 0}, {9, 0, 0})
+                    .Make());
+  EXPECT_EQ(ViewOf(patches).origin, "a view chosen outside the scene");
+}
+
+TEST(ChooseView, PassesOverACameraThatIsNotFinite) {
+  PatchSet patches = PatchesOf(MakeCornell());
+  patches.cameras[0].world.translation.x = std::nan("");
+  EXPECT_TRUE(IsFinite(ViewOf(patches).eye));
+}
+
+TEST(ChooseView, StandsInsideAClosedRoom) {
+  const PatchSet patches = PatchesOf(MakeOffice(1));
+  EXPECT_TRUE(Inside(BoundsOf(patches), ViewOf(patches).eye));
+}
+
+TEST(ChooseView, StandsOutsideAnObject) {
+  const PatchSet patches = PatchesOf(SceneMaker().Box({}, {1, 1, 1}, false, {kGray}, 2).Make());
+  EXPECT_FALSE(Inside(BoundsOf(patches), ViewOf(patches).eye));
+}
+
+TEST(ChooseView, LooksIntoABoxFromItsOpenSide) {
+  PatchSet patches = PatchesOf(MakeCornell(2));
+  patches.cameras.clear();
+  const View view = ViewOf(patches);
+  const Bounds box = BoundsOf(patches);
+  EXPECT_GT(view.eye.z, box.Center().z);
+  EXPECT_LT(view.forward.z, -0.8);
+}
+
+}  // namespace
+}  // namespace lambert
