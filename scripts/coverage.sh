@@ -10,24 +10,28 @@ cmake --preset coverage >/dev/null
 tests=()
 for room in radiosity/*/; do
   room=$(basename "$room")
-  if [[ -d tests/$room ]]; then
-    tests+=("tests/$room/all")
+  if [[ ! -d tests/$room ]]; then
+    echo "radiosity/$room has no tests"
+    exit 1
   fi
+  tests+=("tests/$room/all")
 done
-ninja -C "$build" -j "$(nproc)" "${tests[@]}" >&2
-find "$build" -name '*.gcda' -delete
+mkdir -p "$build" && find "$build" -name '*.gcda' -delete
+ninja -C "$build" -j "$(nproc)" radiosity/all "${tests[@]}" >&2
 
 for program in "${tests[@]}"; do
   find "$build/${program%/all}" -maxdepth 1 -type f -executable -print0
 done | xargs -0 -P "$(nproc)" -I{} sh -c '"$1" --gtest_brief=1 >&2 || exit 255' run {}
 
-# gcov prints, for each object file, `Function 'NAME'` and `Lines executed:P% of N`.
+# gcov prints, for each object file, `Function 'NAME'` and `Lines executed:P% of N`. A name with a space
+# before its arguments begins with a result type: an instance of a template of the standard library.
+# One file at a time: of a function in several, gcov would only show the first.
 functions() {
   find "$@" -name '*.gcno' -print0 |
-    xargs -0 gcov --no-output --function-summaries --demangled-names 2>/dev/null |
+    xargs -0 -n 1 gcov --no-output --function-summaries --demangled-names 2>/dev/null |
     awk '/^Function / { name = substr($0, 11, length($0) - 11); next }
          /^File /     { name = "" }
-         /^Lines executed:/ && name ~ /^lambert::/ && name !~ /\(anonymous namespace\)/ {
+         /^Lines executed:/ && name ~ /^lambert::/ && name !~ /\(anonymous namespace\)|^[^(]* / {
            print ($0 ~ /executed:0[.]00%/ ? "-" : "+") name; name = "" }'
 }
 # Inline functions that nothing calls are in no object; a file that includes every header has them.
