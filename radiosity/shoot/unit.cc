@@ -30,10 +30,10 @@ struct ResultHeader {
   uint32_t patches = 0;
   uint32_t entries = 0;  // patches that were hit
   uint32_t reserved = 0;
-  int64_t shot[3], escaped[3], lost_at_backs[3];
+  int64_t shot[3], escaped[3];
   int64_t rays = 0;
 };
-static_assert(sizeof(ResultHeader) == 96);
+static_assert(sizeof(ResultHeader) == 72);
 
 struct DepositBytes {
   uint32_t patch, hits;
@@ -70,7 +70,6 @@ void MergeResult(const UnitResult& from, UnitResult& into) {
   for (size_t i = 0; i < from.deposits.size(); ++i) AddDeposit(from.deposits[i], into.deposits[i]);
   Add(from.shot, into.shot);
   Add(from.escaped, into.escaped);
-  Add(from.lost_at_backs, into.lost_at_backs);
   into.rays += from.rays;
   into.cpu_seconds += from.cpu_seconds;
 }
@@ -88,6 +87,9 @@ absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result) {
     if (deposit.r < 0 || deposit.g < 0 || deposit.b < 0 || deposit.hits < 0) {
       return Corrupt("unit result", "a deposit is negative");
     }
+    if (deposit.hits == 0 && (deposit.r > 0 || deposit.g > 0 || deposit.b > 0)) {
+      return Corrupt("unit result", "flux arrived without a ray");
+    }
     arrived[0] += deposit.r;
     arrived[1] += deposit.g;
     arrived[2] += deposit.b;
@@ -95,13 +97,14 @@ absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result) {
   }
   if (hits > rays) return Corrupt("unit result", "more rays arrived than were shot");
   for (int c = 0; c < 3; ++c) {
-    if (result.escaped[c] < 0 || result.lost_at_backs[c] < 0 ||
-        arrived[c] + result.escaped[c] + result.lost_at_backs[c] != result.shot[c]) {
+    if (hits == rays && result.escaped[c] != 0) {
+      return Corrupt("unit result", "flux is missing although every ray arrived");
+    }
+    if (result.escaped[c] < 0 || arrived[c] + result.escaped[c] != result.shot[c]) {
       return Corrupt("unit result, channel " + std::to_string(c),
                      "the ledger does not balance: shot " + std::to_string(result.shot[c]) +
                          ", arrived " + std::to_string(static_cast<int64_t>(arrived[c])) +
-                         ", escaped " + std::to_string(result.escaped[c]) + ", lost at backs " +
-                         std::to_string(result.lost_at_backs[c]));
+                         ", escaped " + std::to_string(result.escaped[c]));
     }
   }
   return absl::OkStatus();
@@ -149,7 +152,6 @@ std::string EncodeUnitResult(const UnitResult& result) {
                     [](const Deposit& d) { return d.hits != 0; }));
   std::copy(result.shot.begin(), result.shot.end(), header.shot);
   std::copy(result.escaped.begin(), result.escaped.end(), header.escaped);
-  std::copy(result.lost_at_backs.begin(), result.lost_at_backs.end(), header.lost_at_backs);
   header.rays = result.rays;
   writer.Put(header);
   for (size_t i = 0; i < result.deposits.size(); ++i) {
@@ -174,8 +176,6 @@ absl::StatusOr<UnitResult> DecodeUnitResult(const std::string& bytes, PatchIndex
   result.deposits.resize(patch_count);
   std::copy(std::begin(header.shot), std::end(header.shot), result.shot.begin());
   std::copy(std::begin(header.escaped), std::end(header.escaped), result.escaped.begin());
-  std::copy(std::begin(header.lost_at_backs), std::end(header.lost_at_backs),
-            result.lost_at_backs.begin());
   result.rays = header.rays;
   int64_t previous = -1;
   for (uint32_t k = 0; k < header.entries; ++k) {
