@@ -16,6 +16,11 @@ namespace lambert {
 
 using Quanta = std::array<int64_t, 3>;  // r, g, b
 
+// All visits of a step shoot at most 2^kMaxQuantaBits quanta a channel. A ray may carry 404 times
+// what its patch shoots: 101 where its pyramid has the least density (density.h), times 4 for the
+// greatest cosine of a pyramid over its mean. 2^54 times that is still under 2^63.
+inline constexpr int kMaxQuantaBits = 54;
+
 // Rays [ray_begin, ray_end) of the `ray_count` rays that share the quanta of one emitter.
 // Emitter: patch index, or patches.size() + l for point light l.
 struct Visit {
@@ -45,9 +50,8 @@ struct alignas(32) Deposit {
 // Result of one unit, or of any number of merged units.
 struct UnitResult {
   std::vector<Deposit> deposits;  // by patch
-  Quanta shot{};                  // = sum of deposits + escaped + lost_at_backs, each channel
+  Quanta shot{};                  // = sum of deposits + escaped, each channel
   Quanta escaped{};               // left the scene
-  Quanta lost_at_backs{};         // hit the back of a one-sided patch
   int64_t rays = 0;
   double cpu_seconds = 0;         // of the thread that ran it; not part of the canonical bytes
   bool operator==(const UnitResult&) const = default;
@@ -56,13 +60,14 @@ struct UnitResult {
 // Adds `from` to `into`. Requires: the same number of patches (or `into` without any).
 void MergeResult(const UnitResult& from, UnitResult& into);
 
-// OK if shot = deposited + escaped + lost in each channel, and rays = hits + misses is possible for
+// OK if shot = deposited + escaped in each channel, and rays = hits + misses is possible for
 // `unit`; else DATA_LOSS (reason RESULT_INVALID) with both numbers.
 absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result);
 
 // Canonical bytes (docs/formats.md): a unit's result has the same bytes wherever it was computed, so
-// cpu_seconds travels beside them (0 after decoding). Decoding fails with DATA_LOSS and never crashes; limits are
-// checked before anything is allocated. `patch_count` is what the result must be about.
+// cpu_seconds travels beside them (0 after decoding). Decoding fails with DATA_LOSS and never
+// crashes; limits are checked before anything is allocated. `patch_count` is what the result must be
+// about.
 std::string EncodeUnit(const WorkUnit& unit);
 absl::StatusOr<WorkUnit> DecodeUnit(const std::string& bytes);
 std::string EncodeUnitResult(const UnitResult& result);

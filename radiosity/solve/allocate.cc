@@ -6,7 +6,6 @@
 namespace lambert {
 namespace {
 
-constexpr int kQuantaBits = 60;              // leaves room for sums over any number of units
 constexpr int64_t kUnitsPerStep = 32;        // enough to balance a dozen workers
 constexpr int64_t kMinUnitRays = 1 << 14;    // about 4 ms: more than an exchange costs
 constexpr int64_t kMaxUnitRays = 1 << 21;    // about half a second
@@ -18,9 +17,9 @@ struct Share {
   Rgb flux_lm;
 };
 
-// The power of two of which `total` takes at most 2^kQuantaBits; 0 for no flux.
+// The power of two of which `total` takes at most 2^kMaxQuantaBits; 0 for no flux.
 double Quantum(double total_lm) {
-  return total_lm > 0 ? std::ldexp(1.0, std::ilogb(total_lm) + 1 - kQuantaBits) : 0.0;
+  return total_lm > 0 ? std::ldexp(1.0, std::ilogb(total_lm) + 1 - kMaxQuantaBits) : 0.0;
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct StepPlan {
 // Emitter i expects e_i = flux_i / flux_per_ray rays (flux: the sum of its channels); the numbers
 // are rounded systematically over the emitters from `offset` in [0, 1), so that E[rays_i] = e_i. An
 // emitter that expects less than one ray sends its flux / e_i when it gets one: Russian roulette,
-// no flux is lost in expectation. Quanta: all flux that is shot is under 2^60 of them.
+// no flux is lost in expectation. All flux that is shot is at most 2^kMaxQuantaBits quanta.
 // Requires: finite flux >= 0, flux_per_ray > 0.
 StepPlan AllocateRays(const std::vector<Rgb>& unsent_lm, double flux_per_ray_lm, double offset);
 
