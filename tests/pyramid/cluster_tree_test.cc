@@ -55,11 +55,11 @@ TEST(ClusterTree, CountsLikeTheVerticesOneByOneInACornellBox) {
 
 TEST(ClusterTree, CountsAClusterWithoutOpeningItWhereItFits) {
   // 128 small patches above the pole of a large one, all in the first of four pyramids.
-  const PatchSet patches = PatchesOf(
-      SceneMaker()
-          .Quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {{0.5, 0.5, 0.5}, {1, 1, 1}}, 1)
-          .Quad({2, 2, 2}, {0, 0.1, 0}, {0.1, 0, 0}, {{0.5, 0.5, 0.5}, {}}, 8)
-          .Make());
+  const PatchSet patches =
+      PatchesOf(SceneMaker()
+                    .Quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {{0.5, 0.5, 0.5}, {1, 1, 1}}, 1)
+                    .Quad({2, 2, 2}, {0, 0.1, 0}, {0.1, 0, 0}, {{0.5, 0.5, 0.5}, {}}, 8)
+                    .Make());
   const ClusterTree tree(patches, true);
   const LocalFrame frame{-patches.origin, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const std::vector<int32_t> counts = tree.CountPatches(frame, Hemisphere(4, 4, 0));

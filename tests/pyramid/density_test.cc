@@ -79,8 +79,8 @@ TEST(PyramidRays, SumToExactlyTheRaysAndDifferFromTheirExpectationByLessThanOne)
   }
 }
 
-// A count is floor(x + offset) - floor(y + offset). Over a grid of offsets each floor has the mean of
-// its argument up to half a grid step, and the two errors stay under one step together.
+// A count is floor(x + offset) - floor(y + offset). Over a grid of offsets each floor has the mean
+// of its argument up to half a grid step, and the two errors stay under one step together.
 TEST(PyramidRays, HaveTheMeanOfTheirDensities) {
   constexpr int kGrid = 4096;
   TestRandom random(3);
@@ -94,7 +94,8 @@ TEST(PyramidRays, HaveTheMeanOfTheirDensities) {
       for (size_t p = 0; p < rays.size(); ++p) mean[p] += 1.0 * rays[p] / kGrid;
     }
     for (size_t p = 0; p < mean.size(); ++p) {
-      EXPECT_NEAR(mean[p], densities[p] / Sum(densities) * wanted, 1.0 / kGrid) << wanted << " " << p;
+      EXPECT_NEAR(mean[p], densities[p] / Sum(densities) * wanted, 1.0 / kGrid)
+          << wanted << " " << p;
     }
   }
 }

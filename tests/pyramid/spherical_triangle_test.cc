@@ -26,16 +26,15 @@ struct NamedTriangle {
 // An octant, and what is harder: thin, small, along the horizon, around the pole.
 std::vector<NamedTriangle> Triangles() {
   const Vec3 pole{0, 0, 1};
-  return {{"octant", {pole, {1, 0, 0}, {0, 1, 0}}},
-          {"third", {pole, FromAngles(kPi / 2, 0), FromAngles(kPi / 2, 2 * kPi / 3)}},
-          {"sliver from the pole", {pole, FromAngles(1.5, 0.2), FromAngles(1.5, 0.21)}},
-          {"thin", {FromAngles(0.3, 0), FromAngles(0.31, 0.02), FromAngles(0.9, 0.7)}},
-          {"along the horizon",
-           {FromAngles(1.5, 0.5), FromAngles(kPi / 2, 0), FromAngles(kPi / 2, 1)}},
-          {"small", {FromAngles(0.8, 1), FromAngles(0.82, 1), FromAngles(0.81, 1.03)}},
-          {"obtuse", {FromAngles(1.2, 0), FromAngles(1.3, 2.9), FromAngles(0.2, 1.5)}},
-          {"around the pole",
-           {FromAngles(0.9, 0), FromAngles(1.1, 2), FromAngles(0.7, 4)}}};
+  return {
+      {"octant", {pole, {1, 0, 0}, {0, 1, 0}}},
+      {"third", {pole, FromAngles(kPi / 2, 0), FromAngles(kPi / 2, 2 * kPi / 3)}},
+      {"sliver from the pole", {pole, FromAngles(1.5, 0.2), FromAngles(1.5, 0.21)}},
+      {"thin", {FromAngles(0.3, 0), FromAngles(0.31, 0.02), FromAngles(0.9, 0.7)}},
+      {"along the horizon", {FromAngles(1.5, 0.5), FromAngles(kPi / 2, 0), FromAngles(kPi / 2, 1)}},
+      {"small", {FromAngles(0.8, 1), FromAngles(0.82, 1), FromAngles(0.81, 1.03)}},
+      {"obtuse", {FromAngles(1.2, 0), FromAngles(1.3, 2.9), FromAngles(0.2, 1.5)}},
+      {"around the pole", {FromAngles(0.9, 0), FromAngles(1.1, 2), FromAngles(0.7, 4)}}};
 }
 
 TEST(SinCos, EqualsTheStandardLibraryWithinItsErrorOverTheCircle) {
@@ -58,11 +57,11 @@ TEST(SphericalTriangle, SolidAngleEqualsAnotherFormula) {
   EXPECT_NEAR(Triangles()[0].triangle.solid_angle(), kPi / 2, 1e-15);
 }
 
-// The quadrature's error falls with the fourth power of the edge of its 1024 pieces: 2^-5 rad or so.
+// The quadrature's error falls with the fourth power of the edge of its 1024 pieces: 2^-5 rad or
+// so.
 TEST(SphericalTriangle, FluxFractionEqualsAQuadrature) {
   for (const auto& [name, t] : Triangles()) {
-    EXPECT_NEAR(t.flux_fraction() / SphereBins::FluxFraction(t.a(), t.b(), t.c()), 1, 2e-6)
-        << name;
+    EXPECT_NEAR(t.flux_fraction() / SphereBins::FluxFraction(t.a(), t.b(), t.c()), 1, 2e-6) << name;
   }
   EXPECT_NEAR(Triangles()[0].triangle.flux_fraction(), 0.25, 1e-15);
 }
@@ -95,8 +94,8 @@ TEST(SphericalTriangle, SamplesAreUnitVectorsInside) {
         EXPECT_GT(whole.Inside(d), -1e-9) << name << " " << xi1 << " " << xi2;
       }
     }
-    // xi2 = 0 is the vertex B. A sub-triangle of no area ends on the edge A B, but for the root of a
-    // rounding error in 1 - q^2: 2e-8 or so.
+    // xi2 = 0 is the vertex B. A sub-triangle of no area ends on the edge A B, but for the root of
+    // a rounding error in 1 - q^2: 2e-8 or so.
     EXPECT_NEAR(Length(t.SampleSolidAngle(0.3, 0) - t.b()), 0, 1e-15) << name;
     const Vec3 on_edge = t.SampleSolidAngle(0, 0.5);
     EXPECT_NEAR(Dot(on_edge, Normalized(Cross(t.a(), t.b()))), 0, 1e-7) << name;

@@ -1,4 +1,5 @@
-// Spherical triangles cut into bins, with areas and fluxes by formulas that the library does not use.
+// Spherical triangles cut into bins, with areas and fluxes by formulas that the library does not
+// use.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +24,9 @@ struct SphereBin {
   Vec3 side[3];
 
   SphereBin(Vec3 a, Vec3 b, Vec3 c)
-      : a(a), b(b), c(c),
+      : a(a),
+        b(b),
+        c(c),
         side{Normalized(Cross(a, b)), Normalized(Cross(b, c)), Normalized(Cross(c, a))} {}
   explicit SphereBin(const SphericalTriangle& t) : SphereBin(t.a(), t.b(), t.c()) {}
 
@@ -52,8 +55,9 @@ class SphereBins {
   // Shares of the flux of a Lambertian emitter whose normal is z.
   std::vector<double> FluxShares() const { return Shares(FluxFraction); }
 
-  // 1/pi integral cos theta d omega: each piece counts as its solid angle at its centroid. The error
-  // of that is a series in the square of a piece's edge, so two depths give the limit (Richardson).
+  // 1/pi integral cos theta d omega: each piece counts as its solid angle at its centroid. The
+  // error of that is a series in the square of a piece's edge, so two depths give the limit
+  // (Richardson).
   static double FluxFraction(Vec3 a, Vec3 b, Vec3 c) {
     const double coarse = Flux(a, b, c, 4), fine = Flux(a, b, c, 5);
     return (fine + (fine - coarse) / 3) / std::numbers::pi;

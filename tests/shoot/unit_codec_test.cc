@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "radiosity/core/error.h"
+#include "radiosity/shoot/unit.h"
+#include "tests/support/statistics.h"
+
+namespace lambert {
+namespace {
+
+constexpr PatchIndex kPatches = 50;
+
+WorkUnit MakeUnit() {
+  WorkUnit unit{0x123456789abcdef0, 7, 9, {}};
+  for (int k = 0; k < 12; ++k) {
+    unit.visits.push_back({3 * k, 1000u + k, 10u * k, 10u * k + 5, {k, int64_t{1} << (40 + k), 0}});
+  }
+  return unit;
+}
+
+UnitResult MakeResult() {
+  UnitResult result;
+  result.deposits.resize(kPatches);
+  for (PatchIndex i = 0; i < kPatches; i += 4) {
+    result.deposits[i] = {i, int64_t{1} << 40, 0, i + 1};
+  }
+  result.shot = {1000, 2000, 3000};
+  result.escaped = {1, 2, 3};
+  result.rays = 777;
+  return result;
+}
+
+void Damage(TestRandom& random, std::string& bytes) {
+  const int flips = 1 + static_cast<int>(random.Below(3));
+  for (int k = 0; k < flips; ++k) {
+    bytes[random.Below(static_cast<int64_t>(bytes.size()))] ^=
+        static_cast<char>(1 + random.Below(255));
+  }
+}
+
+TEST(UnitCodec, GivesUnitsBack) {
+  for (const WorkUnit& unit : {WorkUnit{}, MakeUnit()}) {
+    const absl::StatusOr<WorkUnit> read = DecodeUnit(EncodeUnit(unit));
+    ASSERT_TRUE(read.ok()) << read.status();
+    EXPECT_EQ(*read, unit);
+  }
+}
+
+TEST(UnitCodec, GivesResultsBackButForTheProcessorTime) {
+  UnitResult result = MakeResult();
+  const std::string bytes = EncodeUnitResult(result);
+  result.cpu_seconds = 1.5;
+  EXPECT_EQ(EncodeUnitResult(result), bytes);
+  const absl::StatusOr<UnitResult> read = DecodeUnitResult(bytes, kPatches);
+  ASSERT_TRUE(read.ok()) << read.status();
+  result.cpu_seconds = 0;
+  EXPECT_EQ(*read, result);
+}
+
+TEST(UnitCodec, ResultsTakeSpaceForPatchesThatWereHitOnly) {
+  UnitResult none;
+  none.deposits.resize(1000000);
+  EXPECT_LT(EncodeUnitResult(none).size(), 128u);
+}
+
+TEST(UnitCodec, RefusesEveryTruncationAndWhatFollowsTheEnd) {
+  const std::string unit = EncodeUnit(MakeUnit()), result = EncodeUnitResult(MakeResult());
+  for (size_t size = 0; size < unit.size(); ++size) {
+    ASSERT_EQ(DecodeUnit(unit.substr(0, size)).status().code(), absl::StatusCode::kDataLoss);
+  }
+  for (size_t size = 0; size < result.size(); ++size) {
+    ASSERT_EQ(DecodeUnitResult(result.substr(0, size), kPatches).status().code(),
+              absl::StatusCode::kDataLoss);
+  }
+  EXPECT_FALSE(DecodeUnit(unit + '\0').ok());
+  EXPECT_FALSE(DecodeUnitResult(result + '\0', kPatches).ok());
+  EXPECT_FALSE(DecodeUnit(result).ok());
+  EXPECT_FALSE(DecodeUnitResult(unit, kPatches).ok());
+}
+
+// What decodes is a value: encoding it gives the damaged bytes again (but for padding and zeros).
+TEST(UnitCodec, DamagedUnitsAreRefusedOrDecodeToWhatTheySay) {
+  TestRandom random(1);
+  const std::string bytes = EncodeUnit(MakeUnit());
+  int refused = 0;
+  for (int k = 0; k < 10000; ++k) {
+    std::string damaged = bytes;
+    Damage(random, damaged);
+    const absl::StatusOr<WorkUnit> read = DecodeUnit(damaged);
+    if (read.ok()) {
+      ASSERT_EQ(EncodeUnit(*read), damaged);
+    } else {
+      ASSERT_EQ(GetErrorDetail(read.status())->reason, "RESULT_INVALID");
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100);
+}
+
+TEST(UnitCodec, DamagedResultsAreRefusedOrAreAboutThePatchesAskedFor) {
+  TestRandom random(2);
+  const std::string bytes = EncodeUnitResult(MakeResult());
+  const WorkUnit unit = MakeUnit();
+  int refused = 0;
+  for (int k = 0; k < 10000; ++k) {
+    std::string damaged = bytes;
+    Damage(random, damaged);
+    const absl::StatusOr<UnitResult> read = DecodeUnitResult(damaged, kPatches);
+    if (read.ok()) {
+      ASSERT_EQ(read->deposits.size(), static_cast<size_t>(kPatches));
+      // Never a crash, whatever the numbers are.
+      (void)CheckLedger(unit, *read);
+    } else {
+      ASSERT_EQ(GetErrorDetail(read.status())->reason, "RESULT_INVALID");
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100);
+}
+
+TEST(UnitCodec, AResultAboutOtherPatchesIsRefusedBeforeAnythingIsAllocated) {
+  const std::string bytes = EncodeUnitResult(MakeResult());
+  for (PatchIndex patches :
+       {0, kPatches - 1, kPatches + 1, std::numeric_limits<PatchIndex>::max()}) {
+    EXPECT_EQ(DecodeUnitResult(bytes, patches).status().code(), absl::StatusCode::kDataLoss);
+  }
+}
+
+TEST(UnitCodec, PatchesOutOfOrderOrTwiceAreRefused) {
+  UnitResult result = MakeResult();
+  const std::string bytes = EncodeUnitResult(result);
+  constexpr size_t kHeader = 96, kEntry = 32;  // docs/formats.md
+  ASSERT_EQ(bytes.size(), kHeader + 13 * kEntry);
+  std::string twice = bytes, swapped = bytes;
+  twice.replace(kHeader + kEntry, kEntry, bytes, kHeader, kEntry);
+  swapped.replace(kHeader, kEntry, bytes, kHeader + kEntry, kEntry);
+  swapped.replace(kHeader + kEntry, kEntry, bytes, kHeader, kEntry);
+  EXPECT_FALSE(DecodeUnitResult(twice, kPatches).ok());
+  EXPECT_FALSE(DecodeUnitResult(swapped, kPatches).ok());
+}
+
+}  // namespace
+}  // namespace lambert

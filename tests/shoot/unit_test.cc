@@ -1,0 +1,152 @@
+#include "radiosity/shoot/unit.h"
+
+#include <gtest/gtest.h>
+
+#include "radiosity/core/error.h"
+#include "tests/support/statistics.h"
+
+namespace lambert {
+namespace {
+
+constexpr PatchIndex kPatches = 6;
+
+UnitResult RandomResult(TestRandom& random) {
+  UnitResult result;
+  result.deposits.resize(kPatches);
+  for (Deposit& d : result.deposits) {
+    d = {random.Below(1 << 30), random.Below(1 << 30), random.Below(1 << 30), random.Below(100)};
+  }
+  for (int c = 0; c < 3; ++c) {
+    result.shot[c] = random.Below(1 << 30);
+    result.escaped[c] = random.Below(1 << 30);
+  }
+  result.rays = random.Below(1000);
+  result.cpu_seconds = static_cast<double>(random.Below(8));  // sums exactly
+  return result;
+}
+
+UnitResult Merged(const UnitResult& a, const UnitResult& b) {
+  UnitResult sum = a;
+  MergeResult(b, sum);
+  return sum;
+}
+
+TEST(MergeResult, IsCommutativeAndAssociative) {
+  TestRandom random(1);
+  for (int k = 0; k < 200; ++k) {
+    const UnitResult a = RandomResult(random), b = RandomResult(random), c = RandomResult(random);
+    ASSERT_EQ(Merged(a, b), Merged(b, a));
+    ASSERT_EQ(Merged(Merged(a, b), c), Merged(a, Merged(b, c)));
+  }
+}
+
+TEST(MergeResult, AddsEveryField) {
+  UnitResult a;
+  a.deposits = {{1, 2, 3, 4}, {5, 6, 7, 8}};
+  a.shot = {10, 20, 30};
+  a.escaped = {1, 2, 3};
+  a.rays = 12;
+  a.cpu_seconds = 0.5;
+  const UnitResult twice = Merged(a, a);
+  EXPECT_EQ(twice.deposits[1], (Deposit{10, 12, 14, 16}));
+  EXPECT_EQ(twice.shot, (Quanta{20, 40, 60}));
+  EXPECT_EQ(twice.escaped, (Quanta{2, 4, 6}));
+  EXPECT_EQ(twice.rays, 24);
+  EXPECT_EQ(twice.cpu_seconds, 1);
+}
+
+TEST(MergeResult, IntoNothingIsACopy) {
+  TestRandom random(2);
+  const UnitResult a = RandomResult(random);
+  EXPECT_EQ(Merged(UnitResult(), a), a);
+}
+
+TEST(WorkUnit, CountsTheRaysOfItsRanges) {
+  WorkUnit unit;
+  EXPECT_EQ(unit.RayCount(), 0);
+  unit.visits = {{0, 100, 10, 30, {}}, {1, 5, 0, 5, {}}, {2, 4000000000u, 0, 4000000000u, {}}};
+  EXPECT_EQ(unit.RayCount(), 20 + 5 + 4000000000);
+}
+
+// A result that balances: 8 rays, 5 hits, 2 escaped, 1 lost at a back.
+struct Booked {
+  WorkUnit unit;
+  UnitResult result;
+};
+Booked Balanced() {
+  Booked booked;
+  booked.unit.visits = {{0, 8, 0, 8, {80, 160, 0}}};
+  booked.result.deposits = {{}, {20, 40, 0, 2}, {}, {30, 60, 0, 3}};
+  booked.result.shot = {80, 160, 0};
+  booked.result.escaped = {20, 40, 0};
+  booked.result.rays = 8;
+  return booked;
+}
+
+TEST(CheckLedger, AcceptsAResultThatBalances) {
+  const Booked booked = Balanced();
+  EXPECT_TRUE(CheckLedger(booked.unit, booked.result).ok());
+}
+
+template <typename Forge>
+void ExpectRefused(const char* what, Forge forge) {
+  Booked booked = Balanced();
+  forge(booked.result);
+  const absl::Status status = CheckLedger(booked.unit, booked.result);
+  EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss) << what;
+  if (!status.ok()) {
+    EXPECT_EQ(GetErrorDetail(status)->reason, "RESULT_INVALID") << what;
+  }
+}
+
+TEST(CheckLedger, RefusesEachKindOfForgery) {
+  ExpectRefused("one quantum more", [](UnitResult& r) { ++r.deposits[1].r; });
+  ExpectRefused("one quantum less", [](UnitResult& r) { --r.deposits[3].g; });
+  ExpectRefused("a quantum in a dark channel", [](UnitResult& r) { ++r.deposits[3].b; });
+  ExpectRefused("more shot", [](UnitResult& r) { ++r.shot[1]; });
+  ExpectRefused("more escaped", [](UnitResult& r) { ++r.escaped[0]; });
+  ExpectRefused("fewer rays", [](UnitResult& r) { --r.rays; });
+  ExpectRefused("more rays", [](UnitResult& r) { ++r.rays; });
+  ExpectRefused("more hits than rays", [](UnitResult& r) { r.deposits[1].hits += 4; });
+  ExpectRefused("flux without a hit", [](UnitResult& r) {
+    r.deposits[0] = {5, 5, 0, 0};
+    r.deposits[1].r -= 5;
+    r.deposits[1].g -= 5;
+  });
+  ExpectRefused("flux that escaped although every ray arrived",
+                [](UnitResult& r) { r.deposits[1].hits += 3; });
+  ExpectRefused("a negative deposit that another makes up for", [](UnitResult& r) {
+    r.deposits[1].r -= 1000;
+    r.deposits[3].r += 1000;
+  });
+  ExpectRefused("negative hits that others make up for", [](UnitResult& r) {
+    r.deposits[1].hits -= 10;
+    r.deposits[3].hits += 10;
+  });
+  ExpectRefused("a negative escape that a deposit makes up for", [](UnitResult& r) {
+    r.escaped[0] -= 1000;
+    r.deposits[3].r += 1000;
+  });
+  ExpectRefused("a negative loss that a deposit makes up for",
+                [](UnitResult& r) { r.deposits[3].r += 1000; });
+}
+
+TEST(CheckLedger, RefusesSumsThatOverflowToTheRightValue) {
+  // Four times 2^62 is 0 modulo 2^64.
+  ExpectRefused("overflow", [](UnitResult& r) {
+    r.deposits[0].hits = r.deposits[2].hits = 0;
+    for (Deposit& d : r.deposits) d.r += int64_t{1} << 62;
+    r.deposits[0].hits = r.deposits[2].hits = 1;
+  });
+}
+
+TEST(CheckLedger, SaysBothNumbers) {
+  Booked booked = Balanced();
+  booked.result.shot[1] = 170;
+  const std::string message(CheckLedger(booked.unit, booked.result).message());
+  EXPECT_NE(message.find("shot 170"), std::string::npos) << message;
+  EXPECT_NE(message.find("arrived 100"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace lambert
