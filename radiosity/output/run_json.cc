@@ -54,7 +54,6 @@ Json LedgerJson(const Ledger& ledger, const char* unit) {
           {"emitted", RgbJson(ledger.emitted)},
           {"absorbed", RgbJson(ledger.absorbed)},
           {"escaped", RgbJson(ledger.escaped)},
-          {"lost_at_backs", RgbJson(ledger.lost_at_backs)},
           {"unsent", RgbJson(ledger.unsent)},
           {"residual", RgbJson(ledger.residual)}};
 }

@@ -81,10 +81,9 @@ class Flight {
       ++deposit.hits;
       return;
     }
-    Quanta& gone = hit == kEscaped ? result_.escaped : result_.lost_at_backs;
-    gone[0] += r;
-    gone[1] += g;
-    gone[2] += b;
+    result_.escaped[0] += r;
+    result_.escaped[1] += g;
+    result_.escaped[2] += b;
   }
 
   const RayScene& scene_;

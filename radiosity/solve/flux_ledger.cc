@@ -40,7 +40,6 @@ void FluxLedger::Book(const StepPlan& plan, const UnitResult& result) {
     }
     residual_[c].Add(-static_cast<double>(result.shot[c]) * quantum);
     escaped_[c].Add(static_cast<double>(result.escaped[c]) * quantum);
-    lost_[c].Add(static_cast<double>(result.lost_at_backs[c]) * quantum);
   }
   for (PatchIndex i = 0; i < patches_.size(); ++i) {
     const Deposit& deposit = result.deposits[i];
@@ -66,7 +65,6 @@ Ledger FluxLedger::Balance() const {
   for (int c = 0; c < 3; ++c) {
     ledger.absorbed[c] = absorbed_[c].value();
     ledger.escaped[c] = escaped_[c].value();
-    ledger.lost_at_backs[c] = lost_[c].value();
     ledger.unsent[c] = unsent[c].value();
     ledger.residual[c] = residual_[c].value();
   }

@@ -48,7 +48,7 @@ class FluxLedger {
   std::vector<Rgb> unsent_lm_;
   std::vector<Rgb> arrived_lm_;
   std::vector<int64_t> hits_;
-  CompensatedSum absorbed_[3], escaped_[3], lost_[3], residual_[3];
+  CompensatedSum absorbed_[3], escaped_[3], residual_[3];
 };
 
 }  // namespace lambert

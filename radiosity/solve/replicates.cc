@@ -46,7 +46,6 @@ void Replicates::Add(const FluxLedger& pass, int64_t rays) {
   ledger_.emitted = balance.emitted;
   Blend(balance.absorbed, share, ledger_.absorbed);
   Blend(balance.escaped, share, ledger_.escaped);
-  Blend(balance.lost_at_backs, share, ledger_.lost_at_backs);
   Blend(balance.unsent, share, ledger_.unsent);
   Blend(balance.residual, share, ledger_.residual);
   weight_ += weight;

@@ -12,9 +12,9 @@
 namespace lambert {
 
 // Balance of the flux of the averaged solution [lm]:
-// emitted = absorbed + escaped + lost_at_backs + unsent + residual.
+// emitted = absorbed + escaped + unsent + residual.
 struct Ledger {
-  Rgb emitted, absorbed, escaped, lost_at_backs, unsent;
+  Rgb emitted, absorbed, escaped, unsent;
   Rgb residual;  // rounding and roulette: mean zero
 };
 

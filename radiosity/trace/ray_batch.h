@@ -7,9 +7,7 @@
 
 namespace lambert {
 
-// Special values of RayBatch::hit.
-inline constexpr PatchIndex kEscaped = -1;     // the ray left the scene
-inline constexpr PatchIndex kLostAtBack = -2;  // it hit the back of a one-sided patch
+inline constexpr PatchIndex kEscaped = -1;  // RayBatch::hit of a ray that left the scene
 
 struct RayBatch {
   static constexpr int kCapacity = 1024;  // a multiple of the packet width; fits the L2 cache
@@ -19,7 +17,7 @@ struct RayBatch {
   // Trace coordinates (RayScene::ToTrace); directions of any length > 0.
   alignas(64) float origin_x[kSlots], origin_y[kSlots], origin_z[kSlots];
   alignas(64) float direction_x[kSlots], direction_y[kSlots], direction_z[kSlots];
-  alignas(64) PatchIndex hit[kSlots];  // result: a patch, kEscaped or kLostAtBack
+  alignas(64) PatchIndex hit[kSlots];  // result: a patch or kEscaped
 };
 
 }  // namespace lambert

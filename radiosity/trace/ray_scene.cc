@@ -35,7 +35,7 @@ void CullBacks(const RTCFilterFunctionNArguments* args) {
   if (facing > 0 && faces.back[hit->primID] == kNoPatch) args->valid[0] = 0;
 }
 
-RTCRayHit MakeRay(const float origin[3], const float direction[3], float near, float far) {
+RTCRayHit MakeRay(const float origin[3], const float direction[3]) {
   RTCRayHit ray;
   ray.ray.org_x = origin[0];
   ray.ray.org_y = origin[1];
@@ -43,8 +43,8 @@ RTCRayHit MakeRay(const float origin[3], const float direction[3], float near, f
   ray.ray.dir_x = direction[0];
   ray.ray.dir_y = direction[1];
   ray.ray.dir_z = direction[2];
-  ray.ray.tnear = near;
-  ray.ray.tfar = far;
+  ray.ray.tnear = 0;
+  ray.ray.tfar = kInfinity;
   ray.ray.time = 0;
   ray.ray.mask = -1;
   ray.ray.id = 0;
@@ -69,8 +69,8 @@ struct RayScene::Impl {
   std::vector<uint32_t> indices;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  // The same triangles with CullBacks: built when the first ray needs it, as closed scenes never do
-  // and a filter function would slow every packet down.
+  // The same triangles with CullBacks, for the rays that meet a back first: built when there is one,
+  // as a filter function would slow every packet down.
   mutable std::once_flag culling_once;
   mutable RTCScene culling = nullptr;
 
@@ -83,8 +83,8 @@ struct RayScene::Impl {
   void Place(const PatchSet& patches);
   RTCScene Build(bool cull_backs) const;
   RTCScene CullingScene() const;
-  PatchIndex Resolve(const RTCRayHit& ray) const;
-  PatchIndex FrontNear(const float origin[3], const float direction[3], float distance) const;
+  PatchIndex SideHit(const RTCRayHit& ray) const;
+  RTCRayHit CastCulled(const float origin[3], const float direction[3]) const;
   void TracePacket(RayBatch& batch, int first) const;
 };
 
@@ -139,25 +139,17 @@ RTCScene RayScene::Impl::CullingScene() const {
   return culling;
 }
 
-PatchIndex RayScene::Impl::Resolve(const RTCRayHit& ray) const {
-  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kEscaped;
-  if (!HitsBack(ray)) return faces.front[ray.hit.primID];
-  const PatchIndex back = faces.back[ray.hit.primID];
-  return back == kNoPatch ? kLostAtBack : back;
+// The patch whose side was hit, kNoPatch for the back of a one-sided triangle. Requires: a hit.
+PatchIndex RayScene::Impl::SideHit(const RTCRayHit& ray) const {
+  return (HitsBack(ray) ? faces.back : faces.front)[ray.hit.primID];
 }
 
-PatchIndex RayScene::Impl::FrontNear(const float origin[3], const float direction[3],
-                                     float distance) const {
-  const float length = std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] +
-                                 direction[2] * direction[2]);
-  const float reach = kTieDistance / length;
-  RTCRayHit ray =
-      MakeRay(origin, direction, std::max(0.0f, distance - reach), distance + reach);
+RTCRayHit RayScene::Impl::CastCulled(const float origin[3], const float direction[3]) const {
+  RTCRayHit ray = MakeRay(origin, direction);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(CullingScene(), &context, &ray);
-  const PatchIndex front = Resolve(ray);
-  return front == kEscaped ? kLostAtBack : front;
+  return ray;
 }
 
 void RayScene::Impl::TracePacket(RayBatch& batch, int first) const {
@@ -194,7 +186,8 @@ void RayScene::Impl::TracePacket(RayBatch& batch, int first) const {
       if (hit == kNoPatch) {
         const float origin[3] = {packet.ray.org_x[l], packet.ray.org_y[l], packet.ray.org_z[l]};
         const float direction[3] = {packet.ray.dir_x[l], packet.ray.dir_y[l], packet.ray.dir_z[l]};
-        hit = FrontNear(origin, direction, packet.ray.tfar[l]);
+        const RTCRayHit culled = CastCulled(origin, direction);
+        hit = culled.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kEscaped : SideHit(culled);
       }
     }
     batch.hit[first + l] = hit;
@@ -245,13 +238,9 @@ PictureHit RayScene::Cast(Vec3 origin, Vec3 direction) const {
                          static_cast<float>(start.z)};
   const float along[3] = {static_cast<float>(d.x), static_cast<float>(d.y),
                           static_cast<float>(d.z)};
-  RTCRayHit ray = MakeRay(from, along, 0, kInfinity);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(impl_->CullingScene(), &context, &ray);
-  const PatchIndex patch = impl_->Resolve(ray);
-  if (patch < 0) return {};
-  PictureHit hit{patch, ray.hit.u, ray.hit.v, ray.ray.tfar / scale()};
+  const RTCRayHit ray = impl_->CastCulled(from, along);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  PictureHit hit{impl_->SideHit(ray), ray.hit.u, ray.hit.v, ray.ray.tfar / scale()};
   // The back runs through its corners the other way: corners 1 and 2 change places.
   if (HitsBack(ray)) std::swap(hit.u, hit.v);
   return hit;

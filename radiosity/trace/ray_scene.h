@@ -4,9 +4,11 @@
 // so that the box has a diagonal in [1, 2): distances and offsets mean the same at any scale.
 //
 // Leaks and self-hits: traversal is robust (watertight along shared edges), rays start kOriginOffset
-// above their patch and may hit at any distance > 0. A ray that ends on the back of a one-sided
-// patch is looked at again: a front within kTieDistance of that hit wins, so walls that stand back
-// to back, even in the same plane, each show their own side. Other backs are opaque and absorb.
+// above their patch and may hit at any distance > 0.
+//
+// One-sided patches exist from their front only, as glTF has it: rays pass through their backs. So
+// walls that stand back to back, even in one plane, each show their own side, and what a patch that
+// lies partly under furniture sends from there is not lost (docs/decisions/0003).
 #pragma once
 
 #include <memory>
@@ -22,12 +24,10 @@ namespace lambert {
 // Height above its patch at which a ray starts: 8 float32 spacings at coordinate 1, so that rounding
 // never puts an origin below its own patch. In trace coordinates.
 inline constexpr float kOriginOffset = 4.8e-7f;
-// How far behind the back of a patch a front still counts as lying in the same plane.
-inline constexpr float kTieDistance = 2e-6f;
 
 // The answer to one ray of a picture.
 struct PictureHit {
-  PatchIndex patch = kNoPatch;  // kNoPatch: nothing; backs of one-sided patches are see-through
+  PatchIndex patch = kNoPatch;  // kNoPatch: nothing
   double u = 0, v = 0;          // barycentric weights of corners 1 and 2
   double distance_m = 0;
 };
@@ -48,7 +48,7 @@ class RayScene {
   // Nearest hit of every ray of the batch; depends on each ray alone, not on its neighbours.
   void Trace(RayBatch& batch) const;
 
-  // Nearest front that a ray sees. `origin` in metres relative to the patch set's origin.
+  // Nearest side of a patch that a ray sees. `origin` in metres relative to the patch set's origin.
   PictureHit Cast(Vec3 origin, Vec3 direction) const;
 
   // A point of the patch set [m, relative to its origin] in trace coordinates.
