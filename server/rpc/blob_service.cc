@@ -61,15 +61,17 @@ class UploadReactor : public grpc::ServerReadReactor<v1::UploadBlobRequest> {
 class DownloadReactor : public grpc::ServerWriteReactor<v1::DownloadBlobResponse> {
  public:
   DownloadReactor(absl::StatusOr<std::shared_ptr<const Blob>> blob, int64_t offset_bytes) {
-    if (!blob.ok()) return Finish(ToGrpc(blob.status()));
-    blob_ = *std::move(blob);
-    if (offset_bytes < 0 || offset_bytes > static_cast<int64_t>(blob_->bytes().size())) {
-      return Finish(ToGrpc(MakeError(absl::StatusCode::kInvalidArgument,
-                                     {"OFFSET_MISMATCH", "offset_bytes", "lies outside the blob",
-                                      "begin at 0"})));
+    if (!blob.ok()) {
+      Finish(ToGrpc(blob.status()));
+    } else if (offset_bytes < 0 || offset_bytes > static_cast<int64_t>((*blob)->bytes().size())) {
+      Finish(ToGrpc(MakeError(absl::StatusCode::kInvalidArgument,
+                              {"OFFSET_MISMATCH", "offset_bytes", "lies outside the blob",
+                               "begin at 0"})));
+    } else {
+      blob_ = *std::move(blob);
+      offset_ = static_cast<size_t>(offset_bytes);
+      Write();
     }
-    offset_ = static_cast<size_t>(offset_bytes);
-    Write();
   }
   void OnWriteDone(bool ok) override {
     if (ok) {

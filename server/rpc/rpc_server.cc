@@ -20,6 +20,7 @@ namespace {
 constexpr auto kGrace = std::chrono::milliseconds(500);
 constexpr int kKeepaliveMs = 20'000;
 constexpr int kMinClientPingMs = 1'000;
+constexpr int kMaxGrantBytes = 64 << 20;  // what a worker takes in one message
 
 void SetKeepalive(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
@@ -69,7 +70,9 @@ class RpcServerImpl : public RpcServer {
 
   std::string address() const override { return address_; }
   std::shared_ptr<grpc::Channel> InProcessChannel() override {
-    return server_->InProcessChannel(grpc::ChannelArguments());
+    grpc::ChannelArguments arguments;
+    arguments.SetMaxReceiveMessageSize(kMaxGrantBytes);
+    return server_->InProcessChannel(arguments);
   }
 
  private:

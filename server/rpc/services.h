@@ -1,11 +1,9 @@
 // The gRPC services of a coordinator, each in its own file. A handler decodes, makes one call, encodes.
 #pragma once
 
-#include <memory>
+#include <grpcpp/impl/service_type.h>
 
-namespace grpc {
-class Service;
-}
+#include <memory>
 
 namespace lambert::server {
 

@@ -1,0 +1,69 @@
+// lambert-worker: a worker as a program.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "absl/synchronization/mutex.h"
+#include "worker/worker.h"
+
+namespace {
+
+// HOST-PID: no two workers of a farm have the same.
+std::string DefaultName() {
+  char host[65] = "";
+  gethostname(host, sizeof(host) - 1);
+  return std::string(host) + "-" + std::to_string(getpid());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("lambert-worker: computes units of work for a lambert-server");
+  std::string server;
+  lambert::worker::WorkerOptions options;
+  options.worker_id = DefaultName();
+  app.add_option("--server", server, "HOST:PORT of the lambert-server")->required();
+  app.add_option("--slots", options.slots, "units that run at once, one thread each")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  app.add_option("--name", options.worker_id, "unique among the server's workers")
+      ->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  // Before any thread starts, so that every thread inherits the mask and sigwait gets them.
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+  spdlog::set_default_logger(spdlog::stderr_color_mt("lambert-worker"));
+
+  absl::Mutex mutex;
+  absl::Status refused;
+  options.log = [](const std::string& line) { spdlog::info("{}", line); };
+  options.on_refused = [&](const absl::Status& status) {
+    absl::MutexLock lock(&mutex);
+    refused = status;
+    kill(getpid(), SIGTERM);  // wakes sigwait below
+  };
+  {
+    lambert::worker::Worker worker(lambert::worker::ConnectToServer(server), options);
+    int signal = 0;
+    sigwait(&signals, &signal);
+    options.log("finishing what runs");
+  }
+  absl::MutexLock lock(&mutex);
+  if (refused.ok()) return 0;
+  std::fprintf(stderr, "error: %s\n", std::string(refused.message()).c_str());
+  return 1;
+}

@@ -1,0 +1,52 @@
+// Sends results while the slots go on with the next units.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "absl/synchronization/mutex.h"
+#include "absl/synchronization/notification.h"
+#include "lambert/worker/v1/worker_service.pb.h"
+#include "radiosity/shoot/unit.h"
+#include "worker/lease_book.h"
+#include "worker/server_link.h"
+
+namespace lambert::worker {
+
+// Thread safe.
+class ResultSender {
+ public:
+  // Holds at most `capacity` results; `log` is called from any thread.
+  ResultSender(ServerLink* link, LeaseBook* book, int capacity,
+               std::function<void(const std::string&)> log);
+  // Sends what is there.
+  ~ResultSender();
+
+  // Takes over a result; blocks while too many wait. The lease leaves the book when it was sent.
+  void Send(const v1::Lease& lease, UnitResult result);
+  // From now on a result is offered once only.
+  void StopRetrying();
+
+ private:
+  struct Item {
+    v1::Lease lease;
+    UnitResult result;
+  };
+  void Work();
+  void SendOne(const Item& item);
+
+  ServerLink* const link_;
+  LeaseBook* const book_;
+  const size_t capacity_;
+  const std::function<void(const std::string&)> log_;
+  absl::Notification stop_retrying_;
+  absl::Mutex mutex_;
+  std::deque<Item> items_ ABSL_GUARDED_BY(mutex_);
+  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
+  std::thread thread_;
+};
+
+}  // namespace lambert::worker

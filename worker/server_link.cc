@@ -1,0 +1,143 @@
+#include "worker/server_link.h"
+
+#include <grpcpp/grpcpp.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "absl/synchronization/mutex.h"
+#include "absl/time/clock.h"
+#include "lambert/v1/blob_service.grpc.pb.h"
+#include "lambert/worker/v1/worker_service.grpc.pb.h"
+#include "radiosity/core/error.h"
+
+namespace lambert::worker {
+namespace {
+
+constexpr size_t kChunkBytes = size_t{1} << 20;
+constexpr int kDownloadAttempts = 5;
+constexpr absl::Duration kCallDeadline = absl::Seconds(10);
+
+// 30 s and 1 s for each 4 MiB.
+absl::Duration TransferDeadline(int64_t size_bytes) {
+  return absl::Seconds(30 + size_bytes / (int64_t{4} << 20));
+}
+
+void SetDeadline(grpc::ClientContext& context, absl::Duration deadline) {
+  context.set_deadline(absl::ToChronoTime(absl::Now() + deadline));
+}
+
+absl::Status FromGrpc(const grpc::Status& status) {
+  return absl::Status(static_cast<absl::StatusCode>(status.error_code()), status.error_message());
+}
+
+template <typename T>
+absl::StatusOr<T> Result(const grpc::Status& status, T response) {
+  if (!status.ok()) return FromGrpc(status);
+  return response;
+}
+
+}  // namespace
+
+struct ServerLink::Stubs {
+  explicit Stubs(const std::shared_ptr<grpc::Channel>& channel)
+      : work(v1::WorkerService::NewStub(channel)), blobs(lambert::v1::BlobService::NewStub(channel)) {}
+  const std::unique_ptr<v1::WorkerService::Stub> work;
+  const std::unique_ptr<lambert::v1::BlobService::Stub> blobs;
+  absl::Mutex mutex;
+  grpc::ClientContext* sync ABSL_GUARDED_BY(mutex) = nullptr;  // that is under way
+};
+
+ServerLink::ServerLink(std::shared_ptr<grpc::Channel> channel)
+    : stubs_(std::make_unique<Stubs>(channel)) {}
+ServerLink::~ServerLink() = default;
+
+absl::StatusOr<v1::WorkerSession> ServerLink::CreateSession(
+    const v1::CreateWorkerSessionRequest& request) {
+  grpc::ClientContext context;
+  SetDeadline(context, kCallDeadline);
+  v1::WorkerSession session;
+  const grpc::Status status = stubs_->work->CreateWorkerSession(&context, request, &session);
+  return Result(status, std::move(session));
+}
+
+absl::StatusOr<v1::SyncWorkerSessionResponse> ServerLink::Sync(
+    const v1::SyncWorkerSessionRequest& request, absl::Duration hold,
+    const std::function<bool()>& is_interrupted) {
+  grpc::ClientContext context;
+  SetDeadline(context, hold + absl::Seconds(5));
+  {
+    absl::MutexLock lock(&stubs_->mutex);
+    if (is_interrupted()) return absl::CancelledError("interrupted");
+    stubs_->sync = &context;
+  }
+  v1::SyncWorkerSessionResponse response;
+  const grpc::Status status = stubs_->work->SyncWorkerSession(&context, request, &response);
+  absl::MutexLock lock(&stubs_->mutex);
+  stubs_->sync = nullptr;
+  return Result(status, std::move(response));
+}
+
+void ServerLink::InterruptSync() {
+  absl::MutexLock lock(&stubs_->mutex);
+  if (stubs_->sync != nullptr) stubs_->sync->TryCancel();
+}
+
+absl::StatusOr<v1::SubmitUnitResultResponse> ServerLink::Submit(v1::SubmitUnitResultRequest header,
+                                                                const std::string& bytes) {
+  grpc::ClientContext context;
+  SetDeadline(context, TransferDeadline(static_cast<int64_t>(bytes.size())));
+  v1::SubmitUnitResultResponse response;
+  auto writer = stubs_->work->SubmitUnitResult(&context, &response);
+  v1::SubmitUnitResultRequest piece = std::move(header);
+  size_t sent = 0;
+  do {
+    const size_t size = std::min(bytes.size() - sent, kChunkBytes);
+    piece.set_data(bytes.data() + sent, size);
+    sent += size;
+    if (!writer->Write(piece)) break;  // Finish says why
+    piece.Clear();
+  } while (sent < bytes.size());
+  writer->WritesDone();
+  const grpc::Status status = writer->Finish();
+  return Result(status, std::move(response));
+}
+
+void ServerLink::DeleteSession(const std::string& session) {
+  grpc::ClientContext context;
+  SetDeadline(context, absl::Seconds(2));
+  v1::DeleteWorkerSessionRequest request;
+  request.set_name(session);
+  google::protobuf::Empty response;
+  stubs_->work->DeleteWorkerSession(&context, request, &response);
+}
+
+absl::Status ServerLink::DownloadRest(const std::string& sha256, int64_t size_bytes,
+                                      std::string& bytes) {
+  grpc::ClientContext context;
+  SetDeadline(context, TransferDeadline(size_bytes));
+  lambert::v1::DownloadBlobRequest request;
+  request.set_sha256(sha256);
+  request.set_offset_bytes(static_cast<int64_t>(bytes.size()));
+  auto reader = stubs_->blobs->DownloadBlob(&context, request);
+  lambert::v1::DownloadBlobResponse piece;
+  while (reader->Read(&piece)) {
+    bytes += piece.data();
+    if (static_cast<int64_t>(bytes.size()) > size_bytes) context.TryCancel();
+  }
+  return FromGrpc(reader->Finish());
+}
+
+absl::StatusOr<std::string> ServerLink::Download(const std::string& sha256, int64_t size_bytes) {
+  std::string bytes;
+  absl::Status status;
+  for (int attempt = 0; attempt < kDownloadAttempts; ++attempt) {
+    if (attempt > 0) absl::SleepFor(absl::Milliseconds(100) * (1 << attempt));
+    status = DownloadRest(sha256, size_bytes, bytes);
+    if (!absl::IsUnavailable(status)) break;
+  }
+  if (!status.ok()) return status;
+  return bytes;
+}
+
+}  // namespace lambert::worker

@@ -1,0 +1,104 @@
+#include "worker/worker.h"
+
+#include <grpcpp/grpcpp.h>
+
+#include <atomic>
+#include <deque>
+#include <exception>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "google/protobuf/util/time_util.h"
+#include "radiosity/core/digest.h"
+#include "radiosity/shoot/unit.h"
+#include "worker/backoff.h"
+#include "worker/lease_book.h"
+#include "worker/result_sender.h"
+#include "worker/server_link.h"
+#include "worker/session.h"
+
+namespace lambert::worker {
+namespace {
+
+// Two jobs may take turns; more would cost memory for nothing.
+constexpr size_t kShooters = 2;
+constexpr int kKeepaliveMs = 20'000;
+constexpr int kMaxMessageBytes = 64 << 20;
+
+absl::StatusOr<UnitResult> RunUnit(ShooterCache& shooters, const v1::Lease& lease) try {
+  absl::StatusOr<std::shared_ptr<const Shooter>> shooter =
+      shooters.Get(lease.patch_set_digest().sha256(), lease.patch_set_digest().size_bytes(),
+                   lease.shoot_options());
+  if (!shooter.ok()) return shooter.status();
+  absl::StatusOr<WorkUnit> unit = DecodeUnit(lease.unit());
+  if (!unit.ok()) return unit.status();
+  return (*shooter)->Run(*unit);
+} catch (const std::exception& error) {  // memory exhausted, at the worst
+  return absl::ResourceExhaustedError(error.what());
+}
+
+}  // namespace
+
+class Worker::Impl {
+ public:
+  Impl(std::shared_ptr<grpc::Channel> channel, const WorkerOptions& options)
+      : options_(options),
+        link_(std::move(channel)),
+        shooters_([this](const std::string& sha256,
+                         int64_t size_bytes) { return link_.Download(sha256, size_bytes); },
+                  options.make_shooter, kShooters),
+        sender_(&link_, &book_, options.slots + 1, options.log),
+        session_(&link_, &book_, options) {
+    for (int i = 0; i < options.slots; ++i) {
+      runners_.emplace_back([this] { RunUnits(); });
+    }
+  }
+  ~Impl() {
+    book_.Close();
+    session_.StartDraining();
+    sender_.StopRetrying();
+    for (std::thread& runner : runners_) runner.join();
+    book_.WaitUntilIdle();
+    session_.End();
+  }
+
+ private:
+  void RunUnits() {
+    while (std::optional<v1::Lease> lease = book_.Take()) {
+      absl::StatusOr<UnitResult> result = RunUnit(shooters_, *lease);
+      if (result.ok()) {
+        sender_.Send(*lease, *std::move(result));
+      } else {
+        options_.log(lease->name() + " failed: " + std::string(result.status().message()));
+        book_.Fail(lease->name(), std::string(result.status().message()));
+      }
+    }
+  }
+
+  const WorkerOptions options_;
+  ServerLink link_;
+  LeaseBook book_;
+  ShooterCache shooters_;
+  ResultSender sender_;
+  Session session_;
+  std::vector<std::thread> runners_;
+};
+
+Worker::Worker(std::shared_ptr<grpc::Channel> channel, const WorkerOptions& options)
+    : impl_(std::make_unique<Impl>(std::move(channel), options)) {}
+Worker::~Worker() = default;
+
+std::shared_ptr<grpc::Channel> ConnectToServer(const std::string& address) {
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveMs);
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 3000);
+  arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
+  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+}
+
+}  // namespace lambert::worker

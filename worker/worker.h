@@ -1,0 +1,44 @@
+// A worker: takes units of work from a coordinator, runs them, sends the results back.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "absl/status/status.h"
+#include "worker/shooter_cache.h"
+
+namespace grpc {
+class Channel;
+}
+
+namespace lambert::worker {
+
+struct WorkerOptions {
+  std::string worker_id;     // unique among the workers of a server, 1 to 128 characters
+  int slots = 1;             // units that run at once, each on its own thread, 1 to 4096
+  std::string unit_version;  // "": that of this program
+  ShooterFactory make_shooter = Shooter::Create;
+  std::function<void(const std::string&)> log = [](const std::string&) {};  // any thread
+  // The server will never take this worker (another unit version); any thread.
+  std::function<void(const absl::Status&)> on_refused = [](const absl::Status&) {};
+};
+
+// Runs until it is destroyed. A server that goes away is tried again, for ever; work that was under
+// way meanwhile is finished and offered.
+class Worker {
+ public:
+  Worker(std::shared_ptr<grpc::Channel> channel, const WorkerOptions& options);
+  // Finishes the units that run and sends their results, unless the server is not there; hands back
+  // those that wait.
+  ~Worker();
+
+ private:
+  class Impl;
+  const std::unique_ptr<Impl> impl_;
+};
+
+// A channel to HOST:PORT with keepalive, and messages large enough for any grant.
+std::shared_ptr<grpc::Channel> ConnectToServer(const std::string& address);
+
+}  // namespace lambert::worker
