@@ -1,5 +1,6 @@
 #include "radiosity/solve/flux_ledger.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lambert {
@@ -22,50 +23,43 @@ FluxLedger::FluxLedger(const PatchSet& patches)
   for (size_t l = 0; l < patches.point_lights.size(); ++l) {
     unsent_lm_[patches.size() + l] = patches.point_lights[l].intensity_cd * (4 * M_PI);
   }
-}
-
-double FluxLedger::Total(const std::vector<Rgb>& flux) {
-  CompensatedSum sum;
-  for (const Rgb& f : flux) sum.Add(f.r + f.g + f.b);
-  return sum.value();
+  for (const Rgb& flux : unsent_lm_) unsent_ = unsent_ + flux;
 }
 
 void FluxLedger::Book(const StepPlan& plan, const UnitResult& result) {
-  for (int c = 0; c < 3; ++c) {
-    const double quantum = plan.quantum_lm[c];
-    // Residual: what roulette and rounding shot too little, positive, or too much, negative.
-    for (Rgb& unsent : unsent_lm_) {
-      residual_[c].Add(unsent[c]);
-      unsent[c] = 0;
-    }
-    residual_[c].Add(-static_cast<double>(result.shot[c]) * quantum);
-    escaped_[c].Add(static_cast<double>(result.escaped[c]) * quantum);
-  }
+  const Rgb quantum = plan.quantum_lm;
+  const Rgb unsent_before = unsent_;
+  std::fill(unsent_lm_.begin(), unsent_lm_.end(), Rgb{});
+  unsent_ = {};
+  Rgb absorbed;
   for (PatchIndex i = 0; i < patches_.size(); ++i) {
     const Deposit& deposit = result.deposits[i];
     if (deposit.hits == 0) continue;
     hits_[i] += deposit.hits;
-    const Rgb quantum = plan.quantum_lm;
     const Rgb arrived{static_cast<double>(deposit.r) * quantum.r,
                       static_cast<double>(deposit.g) * quantum.g,
                       static_cast<double>(deposit.b) * quantum.b};
     arrived_lm_[i] = arrived_lm_[i] + arrived;
     unsent_lm_[i] = patches_.reflectance[i] * arrived;
-    for (int c = 0; c < 3; ++c) absorbed_[c].Add(arrived[c] - unsent_lm_[i][c]);
+    unsent_ = unsent_ + unsent_lm_[i];
+    absorbed = absorbed + (arrived - unsent_lm_[i]);
+  }
+  for (int c = 0; c < 3; ++c) {
+    absorbed_[c].Add(absorbed[c]);
+    escaped_[c].Add(static_cast<double>(result.escaped[c]) * quantum[c]);
+    // What roulette and rounding shot too little, positive, or too much, negative.
+    residual_[c].Add(unsent_before[c]);
+    residual_[c].Add(-static_cast<double>(result.shot[c]) * quantum[c]);
   }
 }
 
 Ledger FluxLedger::Balance() const {
   Ledger ledger;
   ledger.emitted = emitted_;
-  CompensatedSum unsent[3];
-  for (const Rgb& flux : unsent_lm_) {
-    for (int c = 0; c < 3; ++c) unsent[c].Add(flux[c]);
-  }
+  ledger.unsent = unsent_;
   for (int c = 0; c < 3; ++c) {
     ledger.absorbed[c] = absorbed_[c].value();
     ledger.escaped[c] = escaped_[c].value();
-    ledger.unsent[c] = unsent[c].value();
     ledger.residual[c] = residual_[c].value();
   }
   return ledger;

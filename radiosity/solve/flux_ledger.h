@@ -28,7 +28,7 @@ class FluxLedger {
 
   const std::vector<Rgb>& unsent_lm() const { return unsent_lm_; }
   // Sum over emitters and channels.
-  double unsent_total_lm() const { return Total(unsent_lm_); }
+  double unsent_total_lm() const { return unsent_.r + unsent_.g + unsent_.b; }
   double emitted_total_lm() const { return emitted_.r + emitted_.g + emitted_.b; }
 
   // Books a step: all that was unsent has been shot as `plan` says and arrived as `result` says;
@@ -41,11 +41,10 @@ class FluxLedger {
   Ledger Balance() const;
 
  private:
-  static double Total(const std::vector<Rgb>& flux);
-
   const PatchSet& patches_;
   Rgb emitted_;
   std::vector<Rgb> unsent_lm_;
+  Rgb unsent_;  // its sum
   std::vector<Rgb> arrived_lm_;
   std::vector<int64_t> hits_;
   CompensatedSum absorbed_[3], escaped_[3], residual_[3];

@@ -95,6 +95,7 @@ struct Solver::State {
                                const FluxLedger& ledger);
   void KeepPass(const FluxLedger& ledger, int64_t pass_rays, int64_t first_step_rays);
   bool TimeIsOut() const { return options.max_time_s > 0 && Seconds() >= options.max_time_s; }
+  void EstimateError();
   void DecideNext();
 
   const std::shared_ptr<const PatchSet> patches;
@@ -103,6 +104,7 @@ struct Solver::State {
   Replicates replicates;
   double started;
   CheckpointHeader at;  // where the run stands
+  double estimated_rms_area = -1, estimated_rms_patch = -1;  // of the replicates
   int32_t step = 0;
   int64_t steps_without_loss = 0;
 };
@@ -115,8 +117,8 @@ Progress Solver::State::CurrentProgress() const {
   progress.seconds = Seconds();
   progress.cpu_seconds = at.cpu_seconds;
   progress.unsent_fraction = at.unsent_fraction;
-  progress.estimated_rms_area = replicates.EstimatedRmsArea();
-  progress.estimated_rms_patch = replicates.EstimatedRmsPatch();
+  progress.estimated_rms_area = estimated_rms_area;
+  progress.estimated_rms_patch = estimated_rms_patch;
   progress.wanted_rms_area = options.max_error;
   progress.max_rays = options.max_rays;
   return progress;
@@ -207,11 +209,17 @@ void Solver::State::KeepPass(const FluxLedger& ledger, int64_t pass_rays,
         static_cast<double>(pass_rays) / static_cast<double>(first_step_rays);
   }
   ++at.next_pass;
+  EstimateError();
   DecideNext();
 }
 
+void Solver::State::EstimateError() {
+  estimated_rms_area = replicates.EstimatedRmsArea();
+  estimated_rms_patch = replicates.EstimatedRmsPatch();
+}
+
 void Solver::State::DecideNext() {
-  const double estimated = replicates.EstimatedRmsArea();
+  const double estimated = estimated_rms_area;
   const bool believable = replicates.passes() >= kMinPassesForError && estimated >= 0;
   if (options.max_error > 0 && believable && estimated <= options.max_error) {
     at.stop = StopReason::kErrorReached;
@@ -302,6 +310,7 @@ absl::Status Solver::Restore(const std::string& checkpoint) {
   absl::Status status = state_->replicates.Restore(checkpoint.substr(sizeof(header)));
   if (!status.ok()) return status;
   state_->at = header;
+  state_->EstimateError();
   state_->started = state_->now();
   return absl::OkStatus();
 }
