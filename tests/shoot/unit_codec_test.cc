@@ -130,7 +130,7 @@ TEST(UnitCodec, AResultAboutOtherPatchesIsRefusedBeforeAnythingIsAllocated) {
 TEST(UnitCodec, PatchesOutOfOrderOrTwiceAreRefused) {
   UnitResult result = MakeResult();
   const std::string bytes = EncodeUnitResult(result);
-  constexpr size_t kHeader = 96, kEntry = 32;  // docs/formats.md
+  constexpr size_t kHeader = 72, kEntry = 32;  // docs/formats.md
   ASSERT_EQ(bytes.size(), kHeader + 13 * kEntry);
   std::string twice = bytes, swapped = bytes;
   twice.replace(kHeader + kEntry, kEntry, bytes, kHeader, kEntry);

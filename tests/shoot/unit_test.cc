@@ -68,7 +68,7 @@ TEST(WorkUnit, CountsTheRaysOfItsRanges) {
   EXPECT_EQ(unit.RayCount(), 20 + 5 + 4000000000);
 }
 
-// A result that balances: 8 rays, 5 hits, 2 escaped, 1 lost at a back.
+// A result that balances: 8 rays, 5 hits, 3 escaped.
 struct Booked {
   WorkUnit unit;
   UnitResult result;
@@ -78,7 +78,7 @@ Booked Balanced() {
   booked.unit.visits = {{0, 8, 0, 8, {80, 160, 0}}};
   booked.result.deposits = {{}, {20, 40, 0, 2}, {}, {30, 60, 0, 3}};
   booked.result.shot = {80, 160, 0};
-  booked.result.escaped = {20, 40, 0};
+  booked.result.escaped = {30, 60, 0};
   booked.result.rays = 8;
   return booked;
 }
@@ -127,14 +127,11 @@ TEST(CheckLedger, RefusesEachKindOfForgery) {
     r.escaped[0] -= 1000;
     r.deposits[3].r += 1000;
   });
-  ExpectRefused("a negative loss that a deposit makes up for",
-                [](UnitResult& r) { r.deposits[3].r += 1000; });
 }
 
 TEST(CheckLedger, RefusesSumsThatOverflowToTheRightValue) {
   // Four times 2^62 is 0 modulo 2^64.
   ExpectRefused("overflow", [](UnitResult& r) {
-    r.deposits[0].hits = r.deposits[2].hits = 0;
     for (Deposit& d : r.deposits) d.r += int64_t{1} << 62;
     r.deposits[0].hits = r.deposits[2].hits = 1;
   });
