@@ -173,7 +173,6 @@ std::string Balance(const RunRecord& record, const UnitNames& units) {
   const std::pair<const char*, Rgb> rows[] = {{"Emitted", ledger.emitted},
                                               {"Absorbed", ledger.absorbed},
                                               {"Left the scene", ledger.escaped},
-                                              {"Lost at backs", ledger.lost_at_backs},
                                               {"Unsent", ledger.unsent},
                                               {"Residual", ledger.residual}};
   for (const auto& [name, flux] : rows) {

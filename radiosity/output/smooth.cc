@@ -19,8 +19,9 @@ constexpr double kLiftShare = 0.02;
 constexpr double kLeastLift = 4e-6;
 // Patches whose normals agree to this cosine lie in one plane.
 constexpr double kFlatCosine = 0.9999;
-// Under this share of the light on the other side of an obstacle, a side counts as covered.
-constexpr double kCoveredShare = 0.1;
+// A patch with less than this share of the light beyond an obstacle lies under it, where nobody looks;
+// what is behind a partition gets more.
+constexpr double kCoveredShare = 1e-3;
 // Sides that more patches share are left sharp: no surface looks so, and pairs grow as the square.
 constexpr size_t kCrowdedSide = 16;
 
@@ -167,9 +168,9 @@ FanMeans AverageOverFans(const PatchSet& patches, const CornerFans& fans,
   return means;
 }
 
-// Gives a patch that something stands on the light of the side that can be looked at. `own` is the
-// irradiance of the patch as a whole, `corners` holds the means of its fans.
-void TakeTheLitSide(const std::array<bool, 3>& cut_off, Rgb own, std::array<Rgb, 3>& corners) {
+// Settles the corners of a patch that something stands on. `own` is the irradiance of the patch as a
+// whole, `corners` holds the means of its fans.
+void SettleCutOffCorners(const std::array<bool, 3>& cut_off, Rgb own, std::array<Rgb, 3>& corners) {
   Rgb beyond;  // mean of what lies behind the obstacle
   int count = 0;
   for (int corner = 0; corner < 3; ++corner) {
@@ -178,12 +179,9 @@ void TakeTheLitSide(const std::array<bool, 3>& cut_off, Rgb own, std::array<Rgb,
     ++count;
   }
   beyond = beyond / count;
+  const bool covered = Mean(own) < kCoveredShare * Mean(beyond);
   for (int corner = 0; corner < 3; ++corner) {
-    if (cut_off[corner] && Mean(corners[corner]) < kCoveredShare * Mean(own)) {
-      corners[corner] = own;
-    } else if (!cut_off[corner] && Mean(own) < kCoveredShare * Mean(beyond)) {
-      corners[corner] = beyond;
-    }
+    if (cut_off[corner] != covered) corners[corner] = covered ? beyond : own;
   }
 }
 
@@ -229,7 +227,7 @@ std::vector<std::array<Rgb, 3>> SmoothIrradiance(const PatchSet& patches, const 
     }
     const std::array<bool, 3>& cut_off = fans.cut_off[i];
     if (cut_off[0] || cut_off[1] || cut_off[2]) {
-      TakeTheLitSide(cut_off, irradiance_lx[i], smooth[i]);
+      SettleCutOffCorners(cut_off, irradiance_lx[i], smooth[i]);
     }
   }
   return smooth;

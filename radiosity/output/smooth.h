@@ -8,8 +8,8 @@
 // never leaks under it.
 //
 // Furniture often covers a part of a patch. A patch does not speak for a corner that its centre does
-// not see; and where one side of what lies between is dark (the inside of a box that stands on the
-// patch), the whole patch takes the light of the other, the side that can be looked at.
+// not see, and keeps its own value there; but a patch whose centre lies in the dark under a box takes
+// the light around the box, since only that part of it can be looked at.
 #pragma once
 
 #include <array>

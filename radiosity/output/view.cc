@@ -17,6 +17,7 @@ constexpr double kOutsideAngle = 36;   // and from outside
 constexpr double kDimShare = 0.05;     // of the mean radiosity: less counts as unlit
 constexpr double kUnlitWeight = 0.1;   // of area that shows no light
 constexpr double kThroughWeight = 0.2;  // of what is seen through the backs of one-sided patches
+constexpr double kFarthest = 1e5;       // distance of a usable camera, in diagonals of the scene
 constexpr double kNearlyAll = 0.9999;   // of a distance: nearer is in between
 constexpr double kGrazingCosine = 0.2;  // area seen at less is not seen well
 constexpr double kMargin = 1.06;        // around the scene in views from outside
@@ -127,11 +128,14 @@ Sight Look(const View& view, const PatchSet& patches, const RayScene& scene,
   return sight;
 }
 
-// Cameras come from files: what they say may make no picture.
-bool IsUsable(const View& view) {
-  return IsFinite(view.eye) && IsFinite(view.right) && IsFinite(view.up) &&
-         IsFinite(view.forward) && Length(view.forward) > 0 && std::isfinite(view.half_height) &&
-         view.half_height > 0 && std::isfinite(view.aspect);
+// Cameras come from files: what they say may make no picture. Beyond kFarthest diagonals the float32
+// coordinates of rays tell nothing apart.
+bool IsUsable(const View& view, const Bounds& box) {
+  const double far = kFarthest * box.Diagonal();
+  return IsFinite(view.right) && IsFinite(view.up) && IsFinite(view.forward) &&
+         Length(view.forward) > 0 && Length(view.eye - box.Center()) < far &&
+         view.half_height > 0 && std::isfinite(view.half_height) &&
+         (view.perspective || view.half_height < far) && std::isfinite(view.aspect);
 }
 
 // 1 for patches that show light, kUnlitWeight for the dark.
@@ -175,12 +179,12 @@ View CameraView(const Camera& camera) {
 View ChooseView(const PatchSet& patches, const RayScene& scene,
                 const std::vector<Rgb>& radiosity_lm_per_m2) {
   const std::vector<double> weight = LightWeights(patches, radiosity_lm_per_m2);
+  const Bounds box = BoundsOf(patches);
   for (const Camera& camera : patches.cameras) {
     const View view = CameraView(camera);
-    if (!IsUsable(view)) continue;
+    if (!IsUsable(view, box)) continue;
     if (Look(view, patches, scene, weight).hit_share >= kSeenShare) return view;
   }
-  const Bounds box = BoundsOf(patches);
   std::vector<View> views;
   AddInsideViews(box, views);
   AddOutsideViews(box, views);

@@ -31,7 +31,9 @@ TEST(LuxScale, EndsAtRoundNumbersAroundThePicture) {
 }
 
 TEST(LuxScale, SpansAtMostTwoDecadesAndAStep) {
-  const LuxScale scale = ChooseLuxScale(PictureOf({1e-9, 1, 10, 1000}));
+  std::vector<double> values(50, 1e-9);
+  values.resize(100, 1000);
+  const LuxScale scale = ChooseLuxScale(PictureOf(values));
   EXPECT_GE(scale.low_lx, 1e3 / 100 / 2.5);
 }
 

@@ -54,9 +54,10 @@ TEST(SmoothIrradiance, ALinearFieldIsReproducedInsideAnEvenGrid) {
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     for (int corner = 0; corner < 3; ++corner) {
       const Vec3 p = patches.origin + patches.corners[i][corner];
-      const bool inside = p.x > 0.1 && p.x < 3.9 && p.z > 0.1 && p.z < 3.9;
+      const bool outer = p.x < 0.1 || p.x > 3.9 || p.z < 0.1 || p.z > 3.9;
+      if (outer) continue;
       // The six triangles around a grid point balance each other.
-      if (inside) EXPECT_NEAR(light[i][corner].g, 1 + 2 * p.x, 1e-6);
+      EXPECT_NEAR(light[i][corner].g, 1 + 2 * p.x, 1e-6);
     }
   }
 }
@@ -89,12 +90,13 @@ TEST(SmoothIrradiance, NothingLeaksUnderAPartition) {
                       .Quad({x, 0, -1}, {0, 2, 0}, {0, 0, 6}, kGray, 1, "wall")
                       .Quad({x, 0, -1}, {0, 0, 6}, {0, 2, 0}, kGray, 1, "other side")
                       .Make());
-    const CornerValues light = Smoothed(patches, [&](Vec3 p) { return p.x < x ? 1.0 : 0.0; });
+    auto light_of = [&](Vec3 p) { return p.x < x ? 1.0 : 0.01; };
+    const CornerValues light = Smoothed(patches, light_of);
     for (PatchIndex i = 0; i < patches.size(); ++i) {
-      const double center = (patches.origin + PatchCentroid(patches, i)).x;
-      if (!OnFloor(patches, i) || std::abs(center - 2) < 0.05) continue;
+      if (!OnFloor(patches, i)) continue;
+      const double own = light_of(patches.origin + PatchCentroid(patches, i));
       for (int corner = 0; corner < 3; ++corner) {
-        EXPECT_EQ(light[i][corner].r, center < x ? 1.0 : 0.0) << "wall at " << x;
+        EXPECT_EQ(light[i][corner].r, own) << "wall at " << x;
       }
     }
   }

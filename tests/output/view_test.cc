@@ -68,10 +68,21 @@ TEST(ChooseView, PassesOverACameraThatSeesNothing) {
   EXPECT_EQ(ViewOf(patches).origin, "a view chosen outside the scene");
 }
 
-TEST(ChooseView, PassesOverACameraThatIsNotFinite) {
-  PatchSet patches = PatchesOf(MakeCornell());
-  patches.cameras[0].world.translation.x = std::nan("");
-  EXPECT_TRUE(IsFinite(ViewOf(patches).eye));
+TEST(ChooseView, PassesOverCamerasThatMakeNoPicture) {
+  const PatchSet good = PatchesOf(MakeCornell());
+  const double kNan = std::nan("");
+  std::vector<Camera> bad(5, good.cameras[0]);
+  bad[0].world.translation.x = kNan;
+  bad[1].world.translation.x = 1e30;
+  bad[2].world.z = {};
+  bad[3].yfov_rad = kNan;
+  bad[4].perspective = false;
+  bad[4].half_height_m = 1e30;
+  for (const Camera& camera : bad) {
+    PatchSet patches = good;
+    patches.cameras = {camera};
+    EXPECT_EQ(ViewOf(patches).origin, "a view chosen outside the scene");
+  }
 }
 
 TEST(ChooseView, StandsInsideAClosedRoom) {
