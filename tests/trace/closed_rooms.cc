@@ -1,0 +1,57 @@
+#include "tests/trace/closed_rooms.h"
+
+#include <gtest/gtest.h>
+
+namespace lambert {
+
+PatchSet Turned(PatchSet patches) {
+  const auto turn = [](double& a, double& b, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    const double p = c * a - s * b;
+    b = s * a + c * b;
+    a = p;
+  };
+  for (auto& corners : patches.corners) {
+    for (Vec3& p : corners) {
+      turn(p.x, p.y, 0.7123);
+      turn(p.y, p.z, -1.9341);
+      turn(p.z, p.x, 0.1117);
+    }
+  }
+  return patches;
+}
+
+std::vector<Room> ConvexRooms() {
+  const Paint gray{{0.5, 0.5, 0.5}, {1, 1, 1}};
+  const auto box = [&](Vec3 high, int n) {
+    return PatchesOf(SceneMaker().Box({}, high, true, {gray}, n).Make());
+  };
+  return {{"cube", box({1, 1, 1}, 1)},
+          {"fine cube", box({1, 1, 1}, 20)},
+          {"corridor", box({30, 2.5, 2}, 7)},
+          {"flat box", box({1, 0.001, 1}, 3)},
+          {"sphere", PatchesOf(MakeIcosphere(2, gray))},
+          {"fine sphere", PatchesOf(MakeIcosphere(4, gray))}};
+}
+
+PatchSet ClosedCornell(int n) {
+  Scene scene = MakeCornell(n);
+  const Scene front =
+      SceneMaker().Quad({0, 0, 2}, {0, 2, 0}, {2, 0, 0}, {{0.5, 0.5, 0.5}, {}}, n).Make();
+  Mesh mesh = front.meshes[0];
+  mesh.primitives[0].material = 0;
+  scene.meshes.push_back(mesh);
+  scene.node_names.push_back("front");
+  scene.instances.push_back({static_cast<int>(scene.node_names.size()) - 1,
+                             static_cast<int>(scene.meshes.size()) - 1,
+                             {}});
+  return PatchesOf(scene);
+}
+
+void ExpectNoLoss(const PatchSet& patches, int64_t rays, const std::string& name) {
+  const Losses losses = CountLosses(patches, rays);
+  EXPECT_GT(losses.rays, rays / 2) << name;
+  EXPECT_EQ(losses.escaped, 0) << name << ", of " << losses.rays;
+}
+
+}  // namespace lambert
