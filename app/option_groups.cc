@@ -79,7 +79,9 @@ double QualityError(const std::string& quality) {
 
 void AddSceneOptions(CLI::App& command, Draft& draft) {
   PatchOptions& patch = draft.options.patch;
-  command.add_option("SCENE", draft.options.scene_path, "a .glb or .gltf file")->required();
+  command.add_option("SCENE", draft.options.scene_path, "a .glb or .gltf file")
+      ->option_text("(required)")
+      ->required();
   command
       .add_option("--max-edge", patch.max_edge_m,
                   "split triangles until no edge is longer, metres (absent: none is split)")
