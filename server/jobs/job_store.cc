@@ -9,6 +9,7 @@
 #include "lambert/v1/snapshot_service.pb.h"
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
+#include "server/jobs/spec.h"
 
 namespace lambert::server {
 namespace {
@@ -94,6 +95,7 @@ absl::StatusOr<JobStore::Created> JobStore::Create(const v1::CreateSolveJobReque
   record.set_scene_display_name(scene_display_name);
   *record.mutable_spec() = request.spec();
   record.set_state(v1::SolveJob::STATE_QUEUED);
+  *record.mutable_progress() = EncodeProgress(Progress());
   record.set_unit_version(unit_version);
   *record.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
   auto job = std::make_shared<Job>(record);

@@ -1,6 +1,7 @@
 // Runs the steps of a job on whoever works for this coordinator.
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,12 @@ class TableExecutor : public StepExecutor {
  public:
   TableExecutor(WorkTable* work, WorkSetup setup) : work_(work), setup_(std::move(setup)) {}
   absl::StatusOr<UnitResult> RunStep(const std::vector<WorkUnit>& units) override {
-    return work_->RunStep(setup_, units);
+    if (units.empty()) return UnitResult{};
+    absl::StatusOr<std::shared_ptr<PublishedStep>> step = work_->Publish(setup_, units);
+    if (!step.ok()) return step.status();
+    absl::StatusOr<UnitResult> result = (*step)->Wait();
+    work_->Withdraw(setup_.job);
+    return result;
   }
 
  private:

@@ -255,9 +255,8 @@ void WorkTable::Answer(const std::string& name, std::vector<GrantedLease> leases
   state_.sessions.at(name).waiting = false;
 }
 
-absl::StatusOr<UnitResult> WorkTable::RunStep(const WorkSetup& setup,
-                                              const std::vector<WorkUnit>& units) {
-  if (units.empty()) return UnitResult{};
+absl::StatusOr<std::shared_ptr<PublishedStep>> WorkTable::Publish(
+    const WorkSetup& setup, const std::vector<WorkUnit>& units) {
   std::vector<int64_t> rays;
   for (const WorkUnit& unit : units) rays.push_back(unit.RayCount());
   Calls calls;
@@ -272,17 +271,19 @@ absl::StatusOr<UnitResult> WorkTable::RunStep(const WorkSetup& setup,
     Dispatch(calls);
   }
   MakeCalls(calls);
-  absl::StatusOr<UnitResult> result = step->Wait();
-  calls.clear();
+  return step;
+}
+
+void WorkTable::Withdraw(const std::string& job) {
+  Calls calls;
   {
     absl::MutexLock lock(&mutex_);
-    RemoveStep(state_, setup.job);
-    steps_.erase(setup.job);
+    RemoveStep(state_, job);
+    steps_.erase(job);
     TellRevoked();
     Dispatch(calls);
   }
   MakeCalls(calls);
-  return result;
 }
 
 void WorkTable::AbortJob(const std::string& job, const absl::Status& status) {

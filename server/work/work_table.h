@@ -87,9 +87,13 @@ class WorkTable {
   // RESULT_INVALID: refused, the unit opens again. NONDETERMINISTIC_RESULT: the job's step fails.
   absl::StatusOr<SubmitOutcome> Submit(const Submission& submission);
 
-  // Publishes the units of a step and blocks until all are merged. Errors: UNIT_ATTEMPTS_EXHAUSTED,
-  // NONDETERMINISTIC_RESULT, SHUTTING_DOWN, or what AbortJob was given. One step of a job at a time.
-  absl::StatusOr<UnitResult> RunStep(const WorkSetup& setup, const std::vector<WorkUnit>& units);
+  // Offers the units of a step to workers. PublishedStep::Wait then ends with the merged result, or
+  // with UNIT_ATTEMPTS_EXHAUSTED, NONDETERMINISTIC_RESULT, SHUTTING_DOWN, or what AbortJob was given.
+  // Requires: at least one unit; the job's step before was withdrawn.
+  absl::StatusOr<std::shared_ptr<PublishedStep>> Publish(const WorkSetup& setup,
+                                                         const std::vector<WorkUnit>& units);
+  // Takes the job's step away; results that still come are obsolete.
+  void Withdraw(const std::string& job);
   // Ends the job's step, and each later one, with `status`, until ForgetJob.
   void AbortJob(const std::string& job, const absl::Status& status);
   void ForgetJob(const std::string& job);

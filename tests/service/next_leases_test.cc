@@ -1,0 +1,163 @@
+#include "server/work/next_leases.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace lambert::server {
+namespace {
+
+constexpr int64_t kRays = 1000;
+const TimePoint kNow = TimePoint() + std::chrono::hours(1);
+
+void AddWaiting(WorkState& state, const std::string& name, int slots) {
+  state.sessions[name].slots = slots;
+  state.sessions[name].waiting = true;
+}
+
+void AddUnits(WorkState& state, const std::string& job, int count) {
+  AddStep(state, job, 1, std::vector<int64_t>(count, kRays));
+}
+
+int GrantsOf(const std::vector<Grant>& grants, const std::string& session) {
+  return static_cast<int>(std::count_if(grants.begin(), grants.end(), [&](const Grant& grant) {
+    return grant.session == session;
+  }));
+}
+
+TEST(NextLeases, EqualViewsGiveEqualGrants) {
+  WorkState state;
+  AddWaiting(state, "a", 3);
+  AddWaiting(state, "b", 2);
+  AddUnits(state, "job", 7);
+  EXPECT_EQ(NextLeases(state, kNow, {}), NextLeases(state, kNow, {}));
+}
+
+TEST(NextLeases, FewUnitsGoToAsManyWorkersAsThereAre) {
+  WorkState state;
+  AddWaiting(state, "a", 4);
+  AddWaiting(state, "b", 4);
+  AddUnits(state, "job", 2);
+  const std::vector<Grant> grants = NextLeases(state, kNow, {});
+  EXPECT_EQ(GrantsOf(grants, "a"), 1);
+  EXPECT_EQ(GrantsOf(grants, "b"), 1);
+}
+
+TEST(NextLeases, ManyUnitsFillSlotsAndOneMoreEach) {
+  WorkState state;
+  AddWaiting(state, "a", 2);
+  AddWaiting(state, "b", 1);
+  AddUnits(state, "job", 10);
+  const std::vector<Grant> grants = NextLeases(state, kNow, {});
+  EXPECT_EQ(GrantsOf(grants, "a"), 3);
+  EXPECT_EQ(GrantsOf(grants, "b"), 2);
+}
+
+TEST(NextLeases, NoUnitIsGrantedTwiceAtOnce) {
+  WorkState state;
+  AddWaiting(state, "a", 3);
+  AddWaiting(state, "b", 3);
+  AddUnits(state, "job", 8);
+  std::vector<UnitRef> units;
+  for (const Grant& grant : NextLeases(state, kNow, {})) units.push_back(grant.unit);
+  std::sort(units.begin(), units.end());
+  EXPECT_EQ(std::adjacent_find(units.begin(), units.end()), units.end());
+  EXPECT_EQ(units.size(), 8u);
+}
+
+TEST(NextLeases, NothingIsGrantedAheadWhileAnotherWorkerWithAFreeSlotIsOnItsWay) {
+  WorkState state;
+  AddWaiting(state, "a", 1);
+  AddWaiting(state, "b", 1);
+  state.sessions["b"].waiting = false;
+  AddUnits(state, "job", 2);
+  EXPECT_EQ(NextLeases(state, kNow, {}).size(), 1u);
+  AddStep(state, "other", 2, {kRays, kRays});
+  EXPECT_EQ(NextLeases(state, kNow, {}).size(), 2u);
+}
+
+TEST(NextLeases, DrainingWorkersGetNothing) {
+  WorkState state;
+  AddWaiting(state, "a", 2);
+  state.sessions["a"].draining = true;
+  AddUnits(state, "job", 2);
+  EXPECT_TRUE(NextLeases(state, kNow, {}).empty());
+}
+
+TEST(NextLeases, JobsTakeTurns) {
+  WorkState state;
+  AddWaiting(state, "a", 4);
+  AddUnits(state, "first", 10);
+  AddUnits(state, "second", 10);
+  const std::vector<Grant> grants = NextLeases(state, kNow, {});
+  const auto of_first = std::count_if(grants.begin(), grants.end(),
+                                      [](const Grant& grant) { return grant.unit.job == "first"; });
+  EXPECT_GE(of_first, 2);
+  EXPECT_LE(of_first, 3);
+}
+
+class LateUnit : public testing::Test {
+ protected:
+  LateUnit() {
+    AddWaiting(state_, "frozen", 1);
+    AddWaiting(state_, "idle", 1);
+    state_.sessions["frozen"].waiting = false;
+    AddUnits(state_, "job", 1);
+    AddLease(state_, {"job", 0}, "frozen", "frozen/leases/1", kNow);
+    state_.seconds_per_ray["job"] = 1e-3;  // the unit should take a second
+  }
+  WorkState state_;
+};
+
+TEST_F(LateUnit, IsRepeatedElsewhereAfterTwiceItsTime) {
+  EXPECT_TRUE(NextLeases(state_, kNow + std::chrono::milliseconds(1999), {}).empty());
+  EXPECT_EQ(NextLeases(state_, kNow + std::chrono::milliseconds(2000), {}),
+            (std::vector<Grant>{{"idle", {"job", 0}}}));
+}
+
+TEST_F(LateUnit, IsNeverRepeatedOnTheWorkerThatHoldsIt) {
+  state_.sessions["idle"].waiting = false;
+  state_.sessions["frozen"].waiting = true;
+  state_.sessions["frozen"].slots = 4;
+  EXPECT_TRUE(NextLeases(state_, kNow + std::chrono::hours(1), {}).empty());
+}
+
+TEST_F(LateUnit, WaitsForAFixedTimeWhileThePaceIsUnknown) {
+  state_.seconds_per_ray.clear();
+  const WorkOptions options;
+  EXPECT_TRUE(NextLeases(state_, kNow + options.straggler_unknown / 2, options).empty());
+  EXPECT_EQ(NextLeases(state_, kNow + options.straggler_unknown, options).size(), 1u);
+}
+
+TEST_F(LateUnit, GetsAThirdLeaseOnlyAfterTheSecondIsLateToo) {
+  AddLease(state_, {"job", 0}, "idle", "idle/leases/2", kNow + std::chrono::seconds(2));
+  AddWaiting(state_, "third", 1);
+  EXPECT_TRUE(NextLeases(state_, kNow + std::chrono::seconds(3), {}).empty());
+  EXPECT_EQ(NextLeases(state_, kNow + std::chrono::seconds(4), {}).size(), 1u);
+}
+
+TEST(WorkState, AUnitWhoseOnlyLeaseEndsOpensAgainAsTheNext) {
+  WorkState state;
+  AddWaiting(state, "a", 1);
+  AddUnits(state, "job", 3);
+  AddLease(state, {"job", 2}, "a", "lease", kNow);
+  RemoveLease(state, "lease", /*failed=*/true);
+  EXPECT_EQ(state.steps["job"].open.front(), 2);
+  EXPECT_EQ(state.steps["job"].units[2].attempts, 1);
+  EXPECT_TRUE(state.sessions["a"].leases.empty());
+}
+
+TEST(WorkState, ARevokedLeaseFillsItsSlotUntilItIsRemoved) {
+  WorkState state;
+  AddWaiting(state, "a", 1);
+  AddUnits(state, "job", 1);
+  AddLease(state, {"job", 0}, "a", "lease", kNow);
+  RemoveStep(state, "job");
+  EXPECT_EQ(state.sessions["a"].FreeSlots(), 0);
+  RemoveLease(state, "lease", false);
+  EXPECT_EQ(state.sessions["a"].FreeSlots(), 1);
+  EXPECT_TRUE(state.leases.empty());
+}
+
+}  // namespace
+}  // namespace lambert::server
