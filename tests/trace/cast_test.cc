@@ -21,8 +21,9 @@ TEST(Cast, BarycentricWeightsAndDistanceGiveThePoint) {
   int backs = 0;
   for (int k = 0; k < 5000; ++k) {
     // World 0..6, 0..3, 0..8 m, also from within furniture.
-    const Vec3 eye = Vec3{random.Uniform(0.1, 5.9), random.Uniform(0.1, 2.9),
-                          random.Uniform(0.1, 7.9)} - patches.origin;
+    const Vec3 eye =
+        Vec3{random.Uniform(0.1, 5.9), random.Uniform(0.1, 2.9), random.Uniform(0.1, 7.9)} -
+        patches.origin;
     const Vec3 direction = random.Direction();
     const PictureHit hit = rays->Cast(eye, direction * random.Uniform(0.01, 100));
     ASSERT_NE(hit.patch, kNoPatch);

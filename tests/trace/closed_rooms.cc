@@ -48,6 +48,21 @@ PatchSet ClosedCornell(int n) {
   return PatchesOf(scene);
 }
 
+PatchSet Wedge(double angle_rad, double max_edge_m) {
+  const auto h = static_cast<float>(std::tan(angle_rad));
+  Primitive prism;
+  prism.positions = {{0, 0, 0}, {1, 0, 0}, {1, h, 0}, {0, 0, 1}, {1, 0, 1}, {1, h, 1}};
+  prism.triangles = {{0, 1, 2}, {3, 5, 4}, {0, 4, 1}, {0, 3, 4},
+                     {0, 2, 5}, {0, 5, 3}, {1, 5, 2}, {1, 4, 5}};
+  Scene scene;
+  scene.meshes = {{"wedge", {prism}}};
+  scene.node_names = {"wedge"};
+  scene.instances = {{0, 0, {}}};
+  PatchOptions options;
+  options.max_edge_m = max_edge_m;
+  return *BuildPatches(scene, options);
+}
+
 void ExpectNoLoss(const PatchSet& patches, int64_t rays, const std::string& name) {
   const Losses losses = CountLosses(patches, rays);
   EXPECT_GT(losses.rays, rays / 2) << name;

@@ -22,6 +22,10 @@ std::vector<Room> ConvexRooms();
 // A Cornell box closed in front.
 PatchSet ClosedCornell(int n);
 
+// A prism 1 m long whose cross-section has an angle of `angle_rad` between two sides of 1 m or
+// more, cut to edges of at most `max_edge_m`.
+PatchSet Wedge(double angle_rad, double max_edge_m);
+
 // Shoots from every patch and expects every ray to arrive.
 void ExpectNoLoss(const PatchSet& patches, int64_t rays, const std::string& name);
 

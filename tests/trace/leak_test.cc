@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "tests/support/statistics.h"
 #include "tests/trace/closed_rooms.h"
 
 namespace lambert {
@@ -25,6 +26,21 @@ TEST(Leak, RoomsOfEveryShapeLoseNoRayTurnedOrNot) {
     ExpectNoLoss(Turned(patches), kRays / 20, name + ", turned");
   }
   ExpectNoLoss(Turned(ClosedCornell(7)), kRays / 20, "Cornell box, turned");
+}
+
+// Where two walls meet at an angle a under 90 degrees, a ray that starts nearer to the edge than
+// kOriginOffset / tan a starts beyond the other wall. Two walls about 1 long: that share of the
+// rays.
+TEST(Leak, AcuteCornersLoseNoMoreThanTheRaysThatStartBeyondTheOtherWall) {
+  for (double angle_rad : {1.0, 0.5, 0.1, 0.02}) {
+    for (double max_edge_m : {0.0, 0.1}) {
+      const Losses losses = CountLosses(Turned(Wedge(angle_rad, max_edge_m)), kRays / 20);
+      const double expected =
+          static_cast<double>(losses.rays) * 2 * kOriginOffset / std::tan(angle_rad);
+      EXPECT_LE(static_cast<double>(losses.escaped), expected + kSigmas * std::sqrt(expected) + 1)
+          << angle_rad << " " << max_edge_m;
+    }
+  }
 }
 
 TEST(Leak, ABoxWithoutItsLidLosesWhatItsFormFactorSays) {

@@ -39,9 +39,9 @@ TEST(Scale, ByAPowerOfTwoChangesNoHit) {
   }
 }
 
-// Other scales round corners otherwise, by 6e-8 of the scene: rays that near to an edge change sides.
-// A hundredth of the rays pass within 1e-3 of the scene of an edge, so 1e-6 of them would; one more
-// power of ten is for edges that are seen at small angles.
+// Other scales round corners otherwise, by 6e-8 of the scene: rays that near to an edge change
+// sides. A hundredth of the rays pass within 1e-3 of the scene of an edge, so 1e-6 of them would;
+// one more power of ten is for edges that are seen at small angles.
 TEST(Scale, ByAnyFactorChangesHardlyAHit) {
   const PatchSet patches = PatchesOf(MakeOffice(2));
   const std::vector<PatchIndex> hits = Hits(patches);

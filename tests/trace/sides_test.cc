@@ -112,11 +112,10 @@ TEST(Sides, RaysPassThroughBacksToTheFrontBehindThem) {
 
 // A lamp's flux from the part of a floor that a block stands on must get out of the block.
 TEST(Sides, RaysFromUnderFurnitureArriveInTheRoom) {
-  const PatchSet patches =
-      PatchesOf(SceneMaker()
-                    .Box({0, 0, 0}, {3, 3, 3}, true, {kGray}, 1, "room")
-                    .Box({1, 0, 1}, {2, 1, 2}, false, {kGray}, 1, "block")
-                    .Make());
+  const PatchSet patches = PatchesOf(SceneMaker()
+                                         .Box({0, 0, 0}, {3, 3, 3}, true, {kGray}, 1, "room")
+                                         .Box({1, 0, 1}, {2, 1, 2}, false, {kGray}, 1, "block")
+                                         .Make());
   const auto scene = *RayScene::Create(patches);
   for (int k = 0; k < 100; ++k) {
     const Vec3 under{1.05 + 0.9 * (k % 10) / 9.0, 1e-6, 1.05 + 0.9 * (k / 10) / 9.0};
