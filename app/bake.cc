@@ -91,9 +91,9 @@ absl::StatusOr<client::Job> Bake::Submit() {
   client::Client& client = *service_.client;
   interrupt_.OnFirst([&client] { client.Abort(); });
   const bool remote = service_.local == nullptr;
-  double said_at_s = 0;
+  double said_at_s = MonotonicSeconds();
   auto scene = client.SubmitScene(bundle_, [&](int64_t done, int64_t total) {
-    if (!remote || (done < total && MonotonicSeconds() - said_at_s < 1)) return;
+    if (!remote || done == total || MonotonicSeconds() - said_at_s < 1) return;
     said_at_s = MonotonicSeconds();
     printer_.Stage(fmt::format("uploaded {}: {} of {}", bundle_.main_name, FormatBytes(done),
                                FormatBytes(total)));

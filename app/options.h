@@ -26,6 +26,8 @@ enum class Command {
 enum class ProgressMode { kAuto, kBar, kPlain, kJson, kNone };
 
 struct Options {
+  Options() { solve.shoot.method = Method::kAuto; }
+
   Command command = Command::kBake;
 
   std::string scene_path;         // bake, plan, submit: a .glb or .gltf file
@@ -35,7 +37,7 @@ struct Options {
   std::string compare_reference;  // compare: the table that it is judged by
 
   PatchOptions patch;
-  SolveOptions solve{.shoot = {.method = Method::kAuto}};
+  SolveOptions solve;
 
   std::string server;       // HOST:PORT; "": the whole service in this process
   double reconnect_s = 60;  // how long a server that has gone is tried again, seconds

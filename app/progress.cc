@@ -77,7 +77,7 @@ void ProgressPrinter::Stage(const std::string& text) {
 
 void ProgressPrinter::Update(const Progress& progress) {
   std::lock_guard lock(mutex_);
-  if (mode_ == ProgressMode::kNone) return;
+  if (mode_ == ProgressMode::kNone || progress.rays == 0) return;
   last_ = progress;
   const double interval_s = mode_ == ProgressMode::kPlain ? kPlainInterval_s : kFastInterval_s;
   held_back_ = seconds_now_() - drawn_at_s_ < interval_s;

@@ -91,7 +91,7 @@ TEST_F(BadInput, AFullDiskEndsWith1) {
   std::filesystem::create_symlink("/dev/full", folder_ / "out/convergence.csv");
   const std::string error =
       Fail(1, {"bake", "room.glb", "-o", "out", "--max-rays", "2000", "--progress", "none"});
-  EXPECT_TRUE(Says(error, "out/convergence.csv: No space left on device")) << error;
+  EXPECT_TRUE(Says(error, "out/convergence.csv: ") && Says(error, "No space left")) << error;
 }
 
 TEST_F(BadInput, AReferenceOfAnotherSceneEndsWith1) {
