@@ -9,6 +9,7 @@ namespace lambert {
 namespace {
 
 constexpr uint32_t kMagic = 0x3152504C;  // "LPR1"
+constexpr size_t kBytesPerPatch = 2 * sizeof(Rgb) + sizeof(double) + sizeof(int64_t);
 
 struct Header {
   uint32_t magic = kMagic;
@@ -98,17 +99,16 @@ std::string Replicates::Encode() const {
 absl::Status Replicates::Restore(const std::string& bytes) {
   ByteReader reader(bytes);
   Header header;
-  const bool fits = reader.Get(&header) && header.magic == kMagic && header.passes >= 0 &&
-                    header.patches == patches_.size() &&
-                    reader.GetArray(irradiance_lx_.data(), irradiance_lx_.size()) &&
-                    reader.GetArray(spread_.data(), spread_.size()) &&
-                    reader.GetArray(gray_spread_.data(), gray_spread_.size()) &&
-                    reader.GetArray(hits_.data(), hits_.size()) && reader.Complete();
-  if (!fits) {
+  if (!reader.Get(&header) || header.magic != kMagic || header.passes < 0 ||
+      header.patches != patches_.size() || reader.remaining() != hits_.size() * kBytesPerPatch) {
     return MakeError(absl::StatusCode::kDataLoss,
                      {"CHECKPOINT_INVALID", "checkpoint", "it does not belong to this patch set",
                       "start the job again"});
   }
+  reader.GetArray(irradiance_lx_.data(), irradiance_lx_.size());
+  reader.GetArray(spread_.data(), spread_.size());
+  reader.GetArray(gray_spread_.data(), gray_spread_.size());
+  reader.GetArray(hits_.data(), hits_.size());
   passes_ = header.passes;
   weight_ = header.weight;
   ledger_ = header.ledger;

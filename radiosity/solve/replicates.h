@@ -32,6 +32,7 @@ class Replicates {
   double EstimatedRmsPatch() const { return EstimatedRms(/*by_area=*/false); }
 
   std::string Encode() const;
+  // DATA_LOSS, and nothing changes, on bytes that are not of this patch set.
   absl::Status Restore(const std::string& bytes);
 
  private:
