@@ -103,8 +103,8 @@ TEST(ShootOptionsCodec, GivesEveryFieldBack) {
   EXPECT_TRUE(p.count_black);
   EXPECT_FALSE(p.use_clusters);
   EXPECT_EQ(p.min_rays, 12345);
-  EXPECT_EQ(EncodeShootOptions(*read), bytes);
-  EXPECT_NE(EncodeShootOptions({}), bytes);
+  EXPECT_TRUE(EncodeShootOptions(*read) == bytes);
+  EXPECT_FALSE(EncodeShootOptions({}) == bytes);
 }
 
 TEST(ShootOptionsCodec, RefusesWhatIsCutLongerOrOutOfRange) {
