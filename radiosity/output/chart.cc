@@ -14,8 +14,8 @@ constexpr double kLeft = 64, kRight = 20, kTop = 16, kBottom = 48;
 
 // A logarithmic axis whose ends are round numbers.
 struct LogAxis {
-  double low = 1, high = 10;      // values
-  double at_low = 0, at_high = 1; // places
+  double low = 1, high = 10;       // values
+  double at_low = 0, at_high = 1;  // places
 
   double Place(double value) const {
     return at_low + (at_high - at_low) * std::log(value / low) / std::log(high / low);
@@ -124,20 +124,30 @@ std::string EscapeHtml(const std::string& text) {
   std::string escaped;
   for (char c : text) {
     switch (c) {
-      case '&': escaped += "&amp;"; break;
-      case '<': escaped += "&lt;"; break;
-      case '>': escaped += "&gt;"; break;
-      case '"': escaped += "&quot;"; break;
-      case '\'': escaped += "&#39;"; break;
-      default: escaped.push_back(c);
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped.push_back(c);
     }
   }
   return escaped;
 }
 
 std::string LogLogChart(const std::vector<ChartSeries>& series, const std::string& x_title,
-                        const std::string& y_title, double level,
-                        const std::string& level_label) {
+                        const std::string& y_title, double level, const std::string& level_label) {
   std::vector<ChartSeries> drawable;
   std::vector<double> all_x, all_y;
   for (const ChartSeries& one : series) {
@@ -149,9 +159,9 @@ std::string LogLogChart(const std::vector<ChartSeries>& series, const std::strin
   if (level > 0) all_y.push_back(level);
   const LogAxis x = MakeAxis(all_x, kLeft, kWidth - kRight);
   const LogAxis y = MakeAxis(all_y, kHeight - kBottom, kTop);
-  std::string svg = "<svg class=\"chart\" viewBox=\"0 0 " + Number(kWidth) + " " +
-                    Number(kHeight) + "\" role=\"img\" aria-label=\"" + EscapeHtml(y_title) +
-                    " against " + EscapeHtml(x_title) + "\">";
+  std::string svg = "<svg class=\"chart\" viewBox=\"0 0 " + Number(kWidth) + " " + Number(kHeight) +
+                    "\" role=\"img\" aria-label=\"" + EscapeHtml(y_title) + " against " +
+                    EscapeHtml(x_title) + "\">";
   svg += Axes(x, y, x_title, y_title);
   if (level > 0) {
     svg += Line(x.at_low, y.Place(level), x.at_high, y.Place(level), "level");

@@ -61,12 +61,11 @@ absl::StatusOr<std::vector<PatchIndex>> PairPatches(const PatchTable& table,
     }
   }
   if (lonely == 0 && table.size() == reference.size()) return partner;
-  return MakeError(
-      absl::StatusCode::kInvalidArgument,
-      {"TABLES_DIFFER", "reference",
-       std::to_string(lonely) + " of " + std::to_string(table.size()) +
-           " patches have no partner among its " + std::to_string(reference.size()),
-       "solve both for the same scene with the same --max-edge and --two-sided"});
+  return MakeError(absl::StatusCode::kInvalidArgument,
+                   {"TABLES_DIFFER", "reference",
+                    std::to_string(lonely) + " of " + std::to_string(table.size()) +
+                        " patches have no partner among its " + std::to_string(reference.size()),
+                    "solve both for the same scene with the same --max-edge and --two-sided"});
 }
 
 // One patch as the measures see it.

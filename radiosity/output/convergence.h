@@ -12,7 +12,7 @@
 namespace lambert {
 
 struct ConvergenceRow {
-  std::string method;      // MethodName
+  std::string method;  // MethodName
   uint64_t seed = 0;
   Progress progress;
   ErrorMeasures measures;  // empty without a reference

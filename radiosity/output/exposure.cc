@@ -8,9 +8,9 @@
 namespace lambert {
 namespace {
 
-constexpr double kMiddleGray = 0.26;    // display value of the geometric mean: sRGB 140
-constexpr double kBrightLimit = 0.7;    // display value that 95 % of the lit picture stay under
-constexpr double kEmittedLevel = 0.8;   // of the brightest emitter, where nothing reflects
+constexpr double kMiddleGray = 0.26;   // display value of the geometric mean: sRGB 140
+constexpr double kBrightLimit = 0.7;   // display value that 95 % of the lit picture stay under
+constexpr double kEmittedLevel = 0.8;  // of the brightest emitter, where nothing reflects
 // Pixels darker than this part of the brightest do not count as lit.
 constexpr double kLitShare = 1e-4;
 
@@ -40,7 +40,8 @@ Exposure ChooseExposure(const std::vector<Rgb>& reflected, const std::vector<Rgb
   double log_sum = 0;
   for (double luminance : lit) log_sum += std::log(luminance);
   const double geometric_mean = std::exp(log_sum / static_cast<double>(lit.size()));
-  const auto p95 = lit.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(lit.size() - 1));
+  const auto p95 =
+      lit.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(lit.size() - 1));
   std::nth_element(lit.begin(), p95, lit.end());
   const double exposure = std::min(kMiddleGray / geometric_mean, kBrightLimit / *p95);
   return {std::min(exposure, std::numeric_limits<double>::max())};

@@ -9,10 +9,10 @@
 namespace lambert {
 
 // A single-part, ZIP-compressed OpenEXR file, all channels float32: R, G, B hold the luminance
-// [cd/m2] (radiosity / pi) per linear Rec. 709 channel; irradiance.R/G/B [lx];
-// std_error.R/G/B, the standard error of the luminance [cd/m2]; id.patch, the patch in the middle of
-// the pixel. Where nothing is seen: 0, and -1 for id.patch. Values beyond float32 become its largest.
-// Patch numbers over 2^24 are rounded to even ones. INTERNAL where OpenEXR fails.
+// [cd/m2] (radiosity / pi) per linear Rec. 709 channel, mean over the pixel; at its middle
+// irradiance.R/G/B [lx], std_error.R/G/B, the standard error of the luminance [cd/m2], and
+// id.patch, the patch. Where nothing is seen: 0, and -1 for id.patch. Values beyond float32 become
+// its largest. Patch numbers over 2^24 are rounded to even ones. INTERNAL where OpenEXR fails.
 absl::StatusOr<std::string> EncodeExr(const Picture& picture);
 
 }  // namespace lambert

@@ -47,7 +47,7 @@ struct NodeMesh {
   std::vector<uint32_t> indices;
 };
 
-constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;      // glTF bufferView.target
+constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;          // glTF bufferView.target
 constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;  // accessor.componentType
 constexpr uint16_t kOpaque = 65535;
 
@@ -118,11 +118,11 @@ class GlbWriter {
                                     kArrayBuffer, sizeof(Vertex));
     const size_t indices = AddView(mesh.indices.data(), mesh.indices.size() * sizeof(uint32_t),
                                    kElementArrayBuffer, 0);
-    Json position = Accessor(vertices, offsetof(Vertex, position), kFloat, "VEC3",
-                             mesh.vertices.size());
+    Json position =
+        Accessor(vertices, offsetof(Vertex, position), kFloat, "VEC3", mesh.vertices.size());
     AddRange(mesh, position);
-    Json color = Accessor(vertices, offsetof(Vertex, color), kUnsignedShort, "VEC4",
-                          mesh.vertices.size());
+    Json color =
+        Accessor(vertices, offsetof(Vertex, color), kUnsignedShort, "VEC4", mesh.vertices.size());
     color["normalized"] = true;
     const Json attributes = {
         {"POSITION", Add("accessors", position)},
@@ -149,9 +149,9 @@ class GlbWriter {
     constexpr size_t kHeaders = 12 + 8 + 8;
     const size_t size = kHeaders + json.size() + binary_.size();
     if (size > std::numeric_limits<uint32_t>::max()) {
-      return MakeError(absl::StatusCode::kResourceExhausted,
-                       {"OUTPUT_TOO_LARGE", "GLB file", "it would pass 4 GiB",
-                        "bake with a larger --max-edge"});
+      return MakeError(
+          absl::StatusCode::kResourceExhausted,
+          {"OUTPUT_TOO_LARGE", "GLB file", "it would pass 4 GiB", "bake with a larger --max-edge"});
     }
     std::string glb;
     glb.reserve(size);
@@ -170,16 +170,19 @@ class GlbWriter {
 
  private:
   size_t AddView(const void* data, size_t size, int target, size_t stride) {
-    Json view = {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size},
-                 {"target", target}};
+    Json view = {
+        {"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size}, {"target", target}};
     if (stride > 0) view["byteStride"] = stride;
     binary_.append(static_cast<const char*>(data), size);
     return Add("bufferViews", std::move(view));
   }
 
   static Json Accessor(size_t view, size_t offset, int component, const char* type, size_t count) {
-    return {{"bufferView", view}, {"byteOffset", offset}, {"componentType", component},
-            {"type", type}, {"count", count}};
+    return {{"bufferView", view},
+            {"byteOffset", offset},
+            {"componentType", component},
+            {"type", type},
+            {"count", count}};
   }
 
   // glTF demands the range of positions, equal to the stored float32 values.
@@ -205,19 +208,26 @@ void AddCamera(const View& view, const PatchSet& patches, GlbWriter& writer) {
   Json camera;
   if (view.perspective) {
     camera = {{"type", "perspective"},
-              {"perspective", {{"yfov", 2 * std::atan(view.half_height)},
-                               {"aspectRatio", view.aspect}, {"znear", near}, {"zfar", far}}}};
+              {"perspective",
+               {{"yfov", 2 * std::atan(view.half_height)},
+                {"aspectRatio", view.aspect},
+                {"znear", near},
+                {"zfar", far}}}};
   } else {
     camera = {{"type", "orthographic"},
-              {"orthographic", {{"xmag", view.half_height * view.aspect},
-                                {"ymag", view.half_height}, {"znear", 0}, {"zfar", far}}}};
+              {"orthographic",
+               {{"xmag", view.half_height * view.aspect},
+                {"ymag", view.half_height},
+                {"znear", 0},
+                {"zfar", far}}}};
   }
   const Vec3 eye = patches.origin + view.eye;
   const Vec3 r = view.right, u = view.up, back = -view.forward;
-  writer.AddNode({{"name", "view"},
-                  {"camera", writer.Add("cameras", std::move(camera))},
-                  {"matrix", {r.x, r.y, r.z, 0, u.x, u.y, u.z, 0, back.x, back.y, back.z, 0, eye.x,
-                              eye.y, eye.z, 1}}});
+  writer.AddNode(
+      {{"name", "view"},
+       {"camera", writer.Add("cameras", std::move(camera))},
+       {"matrix",
+        {r.x, r.y, r.z, 0, u.x, u.y, u.z, 0, back.x, back.y, back.z, 0, eye.x, eye.y, eye.z, 1}}});
 }
 
 }  // namespace

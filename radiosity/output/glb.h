@@ -13,12 +13,12 @@
 namespace lambert {
 
 // glTF 2.0 binary: one node and mesh for each node of the source that shows patches, under its name
-// and placed by the patch set's origin; COLOR_0 is the developed radiosity (normalised uint16, linear)
-// under KHR_materials_unlit; _IRRADIANCE is float VEC3 [lx]. Both sides of a two-sided triangle are
-// there, each as its own one-sided triangle. A camera stands where the picture was taken. The extras
-// of the asset record the exposure. RESOURCE_EXHAUSTED (reason OUTPUT_TOO_LARGE) where the file would
-// pass the 4 GiB of its format. Requires: `corner_irradiance_lx` is of
-// these patches.
+// and placed by the patch set's origin; COLOR_0 is the developed radiosity (normalised uint16,
+// linear) under KHR_materials_unlit; _IRRADIANCE is float VEC3 [lx]. Both sides of a two-sided
+// triangle are there, each as its own one-sided triangle. A camera stands where the picture was
+// taken. The extras of the asset record the exposure. RESOURCE_EXHAUSTED (reason OUTPUT_TOO_LARGE)
+// where the file would pass the 4 GiB of its format. Requires: `corner_irradiance_lx` is of these
+// patches.
 absl::StatusOr<std::string> EncodeGlb(const PatchSet& patches,
                                       const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
                                       const Exposure& exposure, const View& view);

@@ -18,23 +18,27 @@ std::string PartialPath(const std::string& path) { return path + ".partial"; }
 const char* Hint(int error) {
   switch (error) {
     case ENOSPC:
-    case EDQUOT: return "free some space or choose another folder with -o";
+    case EDQUOT:
+      return "free some space or choose another folder with -o";
     case EACCES:
     case EPERM:
-    case EROFS: return "choose a folder that you may write to with -o";
+    case EROFS:
+      return "choose a folder that you may write to with -o";
     case ENOENT:
     case ENOTDIR:
-    case EEXIST: return "give a folder with -o, not a file";
-    default: return "choose another folder with -o";
+    case EEXIST:
+      return "give a folder with -o, not a file";
+    default:
+      return "choose another folder with -o";
   }
 }
 
 absl::Status OutputErrorOf(const std::string& path, int error) {
   auto code = error == ENOSPC || error == EDQUOT ? absl::StatusCode::kResourceExhausted
                                                  : absl::StatusCode::kFailedPrecondition;
-  return MakeError(code, {"OUTPUT_FAILED", path,
-                          "cannot be written (" + std::generic_category().message(error) + ")",
-                          Hint(error)});
+  return MakeError(
+      code, {"OUTPUT_FAILED", path,
+             "cannot be written (" + std::generic_category().message(error) + ")", Hint(error)});
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct PatchTable {
   std::vector<Rgb> reflectance;
   std::vector<Rgb> exitance_lm_per_m2, radiosity_lm_per_m2;
   std::vector<Rgb> irradiance_lx;
-  std::vector<Rgb> std_error_lm_per_m2;      // of the radiosity
+  std::vector<Rgb> std_error_lm_per_m2;  // of the radiosity
 
   PatchIndex size() const { return static_cast<PatchIndex>(source.size()); }
 };

@@ -6,8 +6,8 @@
 namespace lambert {
 namespace {
 
-constexpr int kSubPixels = 4;              // 4 x 4 rays where neighbouring pixels differ
-constexpr double kVisibleStep = 0.02;      // of the display's range: a smaller one needs no rays
+constexpr int kSubPixels = 4;          // 4 x 4 rays where neighbouring pixels differ
+constexpr double kVisibleStep = 0.02;  // of the display's range: a smaller one needs no rays
 constexpr Rgb kBackground{0.006, 0.007, 0.008};  // display value: near black, told from true black
 
 struct Sample {
@@ -19,8 +19,7 @@ struct Sample {
 class Painter {
  public:
   Painter(const View& view, const PatchSet& patches, const RayScene& scene,
-          const Solution& solution,
-          const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx)
+          const Solution& solution, const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx)
       : view_(view),
         patches_(patches),
         scene_(scene),
@@ -35,8 +34,8 @@ class Painter {
     Sample sample;
     sample.patch = hit.patch;
     for (int corner = 0; corner < 3; ++corner) {
-      sample.irradiance = sample.irradiance + corner_irradiance_lx_[hit.patch][corner] *
-                                                  std::max(weights[corner], 0.0);
+      sample.irradiance = sample.irradiance +
+                          corner_irradiance_lx_[hit.patch][corner] * std::max(weights[corner], 0.0);
     }
     sample.emitted = patches_.exitance_lm_per_m2[hit.patch];
     sample.radiosity = sample.emitted + patches_.reflectance[hit.patch] * sample.irradiance;
@@ -117,26 +116,22 @@ std::vector<bool> RoughPixels(const Picture& picture) {
   return rough;
 }
 
-// Draws one pixel again with kSubPixels^2 rays.
+// Takes the radiosity of one pixel again, with kSubPixels^2 rays.
 void RefinePixel(const Painter& painter, int x, int y, Picture& picture) {
   constexpr double kShare = 1.0 / (kSubPixels * kSubPixels);
-  Rgb radiosity, irradiance, std_error, display;
+  Rgb radiosity, display;
   for (int sub = 0; sub < kSubPixels * kSubPixels; ++sub) {
     // Columns are shifted from row to row, so that nearly upright edges meet all sub-columns.
     const int row = sub / kSubPixels, column = sub % kSubPixels;
     const double shift = (row + 0.5) / kSubPixels;
-    const Sample sample = painter.At((x + (column + shift) / kSubPixels) / picture.width,
-                                     (y + (row + (column + 0.5) / kSubPixels) / kSubPixels) /
-                                         picture.height);
+    const Sample sample =
+        painter.At((x + (column + shift) / kSubPixels) / picture.width,
+                   (y + (row + (column + 0.5) / kSubPixels) / kSubPixels) / picture.height);
     radiosity = radiosity + sample.radiosity * kShare;
-    irradiance = irradiance + sample.irradiance * kShare;
-    std_error = std_error + sample.std_error * kShare;
     display = display + Display(sample, picture.exposure) * kShare;
   }
   const size_t pixel = static_cast<size_t>(y) * picture.width + x;
   picture.radiosity_lm_per_m2[pixel] = radiosity;
-  picture.irradiance_lx[pixel] = irradiance;
-  picture.std_error_lm_per_m2[pixel] = std_error;
   picture.display[pixel] = display;
 }
 
@@ -144,8 +139,7 @@ void RefinePixel(const Painter& painter, int x, int y, Picture& picture) {
 
 Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& scene,
                     const Solution& solution,
-                    const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
-                    int longer_side) {
+                    const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx, int longer_side) {
   Picture picture;
   SetSize(view, longer_side, picture);
   const Painter painter(view, patches, scene, solution, corner_irradiance_lx);

@@ -14,18 +14,20 @@ namespace lambert {
 
 // Rows from top to bottom; every vector has width * height entries, 0 where nothing is seen.
 struct Picture {
-  int width = 0, height = 0;             // pixels
+  int width = 0, height = 0;  // pixels
   Exposure exposure;
-  std::vector<Rgb> radiosity_lm_per_m2;  // means over the pixel
+  std::vector<Rgb> radiosity_lm_per_m2;  // mean over the pixel
+  std::vector<Rgb> display;              // the same developed, 0..1, background included
+  // At the middle of the pixel, so that all three are of one patch:
+  std::vector<PatchIndex> patch;  // kNoPatch: nothing
   std::vector<Rgb> irradiance_lx;
   std::vector<Rgb> std_error_lm_per_m2;
-  std::vector<Rgb> display;              // developed, 0..1, background included
-  std::vector<PatchIndex> patch;         // at the middle of the pixel, or kNoPatch
 };
 
 // Draws a picture whose longer side has `longer_side` pixels: one ray a pixel, 16 where neighbours
-// differ. Irradiance is interpolated between corners (`corner_irradiance_lx`, from SmoothIrradiance);
-// reflectance and exitance stay the patch's. The exposure is chosen from the picture itself.
+// differ. Irradiance is interpolated between corners (`corner_irradiance_lx`, from
+// SmoothIrradiance); reflectance and exitance stay the patch's. The exposure is chosen from the
+// picture itself.
 Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& scene,
                     const Solution& solution,
                     const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,

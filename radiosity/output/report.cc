@@ -54,8 +54,7 @@ std::string Image(const std::string& png, const std::string& alt) {
 std::string Tiles(const RunRecord& record, const UnitNames& units) {
   const Progress& progress = record.snapshot.progress;
   std::string html = "<div class=\"tiles\">";
-  html += Tile(progress.estimated_rms_area < 0 ? "not known"
-                                               : Percent(progress.estimated_rms_area),
+  html += Tile(progress.estimated_rms_area < 0 ? "not known" : Percent(progress.estimated_rms_area),
                "estimated error");
   html += Tile(Quantity(static_cast<double>(progress.rays)), "rays");
   html += Tile(RoundedText(progress.seconds, 3) + " s", "run time");
@@ -147,14 +146,14 @@ std::string SurfaceTable(const RunRecord& record, const UnitNames& units) {
                            "#Least" + unit, "#Most" + unit, "#Least / mean"});
   for (size_t k = 0; k < std::min(surfaces.size(), kMostSurfaces); ++k) {
     const Surface& surface = surfaces[k];
-    html += "<tr>" + Cell(surface.name) + NumberCell(Quantity(surface.patches)) +
-            NumberCell(RoundedText(surface.area_m2, 3)) +
-            NumberCell(RoundedText(surface.mean_reflectance, 2)) +
-            NumberCell(Quantity(surface.mean_lx)) + NumberCell(Quantity(surface.least_lx)) +
-            NumberCell(Quantity(surface.most_lx)) +
-            NumberCell(surface.mean_lx > 0 ? RoundedText(surface.least_lx / surface.mean_lx, 2)
-                                           : "") +
-            "</tr>";
+    html +=
+        "<tr>" + Cell(surface.name) + NumberCell(Quantity(surface.patches)) +
+        NumberCell(RoundedText(surface.area_m2, 3)) +
+        NumberCell(RoundedText(surface.mean_reflectance, 2)) +
+        NumberCell(Quantity(surface.mean_lx)) + NumberCell(Quantity(surface.least_lx)) +
+        NumberCell(Quantity(surface.most_lx)) +
+        NumberCell(surface.mean_lx > 0 ? RoundedText(surface.least_lx / surface.mean_lx, 2) : "") +
+        "</tr>";
   }
   html += "</table></div><p class=\"note\">Irradiance per patch";
   if (surfaces.size() > kMostSurfaces) {
@@ -182,13 +181,14 @@ std::string Balance(const RunRecord& record, const UnitNames& units) {
     }
     html += NumberCell(emitted > 0 ? Percent(Luminance(flux) / emitted) : "") + "</tr>";
   }
-  return html + "</table></div><p class=\"note\">Emitted is the sum of the others. The residual is what "
-                "rounding and roulette left over; its mean is zero.</p>";
+  return html +
+         "</table></div><p class=\"note\">Emitted is the sum of the others. The residual is what "
+         "rounding and roulette left over; its mean is zero.</p>";
 }
 
 std::string PlanTable(const Plan& plan) {
-  std::string html = "<h2>Plan</h2><div class=\"scroll\"><table>" +
-                     Head({"Item", "", "Reason", "Saving"});
+  std::string html =
+      "<h2>Plan</h2><div class=\"scroll\"><table>" + Head({"Item", "", "Reason", "Saving"});
   for (const PlanItem& item : plan.items) {
     html += "<tr>" + Cell(item.item) + Cell(item.left_out ? "left out" : "done") +
             Cell(item.reason) + Cell(item.saving) + "</tr>";
@@ -239,11 +239,11 @@ std::string EncodeReport(const RunRecord& record, const ReportPictures& pictures
   const std::string title = EscapeHtml(record.name);
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
-         "<title>" + title + " - Lambert</title><style>" + kReportStyle + "</style></head><body>" +
-         "<h1>" + title + "</h1><p class=\"soft\">Radiosity solution by Lambert</p>" +
-         Tiles(record, units) + Pictures(pictures, units) + ErrorChart(record) +
-         ReferenceTable(record) + SurfaceTable(record, units) + Balance(record, units) +
-         PlanTable(record.plan) +
+         "<title>" +
+         title + " - Lambert</title><style>" + kReportStyle + "</style></head><body>" + "<h1>" +
+         title + "</h1><p class=\"soft\">Radiosity solution by Lambert</p>" + Tiles(record, units) +
+         Pictures(pictures, units) + ErrorChart(record) + ReferenceTable(record) +
+         SurfaceTable(record, units) + Balance(record, units) + PlanTable(record.plan) +
          Warnings(*record.patches) + Facts(record) + "</body></html>\n";
 }
 

@@ -17,8 +17,9 @@ struct ReportPictures {
   Exposure exposure;
 };
 
-// A complete HTML page: pictures, error against time, irradiance per surface, the balance of flux, the
-// plan with its reasons, warnings and the facts of the run. No scripts; light and dark; prints well.
+// A complete HTML page: pictures, error against time, irradiance per surface, the balance of flux,
+// the plan with its reasons, warnings and the facts of the run. No scripts; light and dark; prints
+// well.
 std::string EncodeReport(const RunRecord& record, const ReportPictures& pictures);
 
 }  // namespace lambert

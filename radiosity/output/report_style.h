@@ -8,8 +8,6 @@ inline constexpr char kReportStyle[] = R"css(
   --panel: #f6f7f8; --accent: #b45309; --second: #1d6fa5; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e8e6e3; --soft: #9aa0a6; --paper: #16181b;
   --line: #30343a; --panel: #1e2125; --accent: #f2a541; --second: #6cb6e8; } }
-@media print { :root { --ink: #000; --soft: #444; --paper: #fff; --line: #bbb; --panel: #fff;
-  --accent: #b45309; --second: #1d6fa5; } figure, table, .tiles { break-inside: avoid; } }
 * { box-sizing: border-box; }
 body { margin: 0 auto; padding: 2.5rem 1.5rem 4rem; max-width: 1020px; background: var(--paper);
   color: var(--ink); font: 15px/1.55 system-ui, "Segoe UI", "Helvetica Neue", Arial, sans-serif; }
@@ -32,6 +30,7 @@ table { border-collapse: collapse; width: 100%; font-size: 0.91rem; }
 th { text-align: left; font-weight: 600; color: var(--soft); white-space: nowrap; }
 th, td { padding: 0.34rem 0.9rem 0.34rem 0; border-bottom: 1px solid var(--line);
   vertical-align: top; overflow-wrap: anywhere; }
+td:first-child { min-width: 6.5rem; }
 td.n, th.n { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
 td.fact { white-space: nowrap; color: var(--soft); padding-right: 2rem; width: 1%; }
 code { font: 0.86em ui-monospace, "DejaVu Sans Mono", Menlo, monospace; }
@@ -46,6 +45,11 @@ svg line.estimate, svg line.true { stroke-width: 2; }
 svg polyline { fill: none; stroke-width: 2; stroke-linejoin: round; }
 svg circle.estimate { fill: var(--accent); stroke: none; }
 svg circle.true { fill: var(--second); stroke: none; }
+@media print { :root { --ink: #000; --soft: #444; --paper: #fff; --line: #bbb; --panel: #fff;
+  --accent: #b45309; --second: #1d6fa5; } figure, table, .tiles { break-inside: avoid; }
+  body { padding: 0; font-size: 12px; } h2 { break-after: avoid; margin-top: 1.6rem; }
+  .tiles { grid-template-columns: repeat(5, 1fr); } .scroll { overflow-x: visible; }
+  th, td { padding-right: 0.5rem; } th { white-space: normal; } }
 )css";
 
 }  // namespace lambert

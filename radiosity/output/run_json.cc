@@ -28,8 +28,8 @@ Json OptionsJson(const SolveOptions& solve, const PatchOptions& patch) {
           {"phs_depth", pyramids.depth},
           {"phs_alpha1", pyramids.alpha1},
           {"phs_alpha2", pyramids.alpha2},
-          {"phs_sampling", pyramids.sampling == PyramidSampling::kSolidAngle ? "solid_angle"
-                                                                             : "projected_angle"},
+          {"phs_sampling",
+           pyramids.sampling == PyramidSampling::kSolidAngle ? "solid_angle" : "projected_angle"},
           {"phs_count_black", pyramids.count_black},
           {"phs_use_clusters", pyramids.use_clusters},
           {"phs_min_rays", pyramids.min_rays}};

@@ -22,16 +22,16 @@ struct RunRecord {
   std::string scene_digest;  // SHA-256 of what was submitted
   std::shared_ptr<const PatchSet> patches;
   PatchOptions patch_options;
-  Plan plan;                 // with the options that were used
-  Snapshot snapshot;         // the last one; its solution is not null
+  Plan plan;          // with the options that were used
+  Snapshot snapshot;  // the last one; its solution is not null
   StopReason stop_reason = StopReason::kNone;
-  bool interrupted = false;  // stopped by hand before any goal
-  int workers = 0;           // that took part; 0: not known
-  int threads = 0;           // a worker; 0: not known
-  std::vector<ConvergenceRow> convergence;   // as in convergence.csv, in order
-  std::optional<ErrorMeasures> measures;     // of the snapshot, with a reference
+  bool interrupted = false;                                   // stopped by hand before any goal
+  int workers = 0;                                            // that took part; 0: not known
+  int threads = 0;                                            // a worker; 0: not known
+  std::vector<ConvergenceRow> convergence;                    // as in convergence.csv, in order
+  std::optional<ErrorMeasures> measures;                      // of the snapshot, with a reference
   std::vector<std::pair<std::string, std::string>> versions;  // program or library, version
-  std::string unit_version;                  // the pins: UnitVersion()
+  std::string unit_version;                                   // the pins: UnitVersion()
   std::vector<std::pair<std::string, double>> timings_s;      // what, seconds, in order
 };
 

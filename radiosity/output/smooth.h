@@ -1,35 +1,32 @@
 // Irradiance of patches, carried over to their corners, so that pictures show no facets.
 //
-// Two patches are neighbours at a corner where they share an edge that ends there, wind it in opposite
-// directions (they show the same side), turn by less than kSmoothAngle, and see each other near the
-// corner: a ray just above the surface is free. The value of a corner is the mean over its fan: the
-// patches around that vertex that are connected through neighbours, each weighted by its area. A
-// partition that stands on a floor, with or without vertices of its own there, parts the fans: light
-// never leaks under it.
+// Two patches are neighbours at a corner where they share an edge that ends there, wind it in
+// opposite directions (they show the same side), turn by less than kSmoothAngle, and see each other
+// near the corner: a ray just above the surface is free. The value of a corner is the mean over its
+// fan: the patches around that vertex that are connected through neighbours, each weighted by its
+// area. A partition that stands on a floor, with or without vertices of its own there, parts the
+// fans: light never leaks under it.
 //
-// Furniture often covers a part of a patch. A patch does not speak for a corner that its centre does
-// not see, and keeps its own value there; but a patch whose centre lies in the dark under a box takes
-// the light around the box, since only that part of it can be looked at.
+// Furniture often stands on a part of a patch, where no light arrives: the rest of the patch has
+// the more, irradiance / exposed share, and what can be seen of it takes that. A corner that a
+// partition cuts off from the centre of its patch keeps the patch's value (survey.h).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "radiosity/output/survey.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/trace/ray_scene.h"
 
 namespace lambert {
 
-// Largest angle between the normals of patches that are smoothed as one surface [degrees]. A prism
-// of 18 sides and more reads as a cylinder; the edges of furniture and rooms stay sharp.
-inline constexpr double kSmoothAngle = 20;
-
 // Which corners share one value. Depends on the geometry alone.
 struct CornerFans {
   int32_t fan_count = 0;
-  std::vector<std::array<int32_t, 3>> fan;   // by patch and corner: 0 .. fan_count - 1
-  std::vector<std::array<bool, 3>> cut_off;  // the patch's centre does not see this corner
+  std::vector<std::array<int32_t, 3>> fan;  // by patch and corner: 0 .. fan_count - 1
+  std::vector<PatchSurvey> survey;          // by patch
 };
 
 // Requires: `scene` was made of `patches`.

@@ -15,9 +15,9 @@ struct Surface {
   std::string name;  // of the node, or "node 7"
   int64_t patches = 0;
   double area_m2 = 0;
-  double mean_lx = 0;             // weighted by area
+  double mean_lx = 0;                // weighted by area
   double least_lx = 0, most_lx = 0;  // over its patches
-  double mean_reflectance = 0;    // weighted by area
+  double mean_reflectance = 0;       // weighted by area
 };
 
 // Largest area first.

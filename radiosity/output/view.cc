@@ -11,11 +11,11 @@ namespace {
 
 constexpr double kDefaultAspect = 1.5;
 constexpr int kProbeColumns = 24, kProbeRows = 16;  // rays that judge a view
-constexpr double kSeenShare = 0.01;    // of its rays must hit something, or a camera is passed over
-constexpr double kInsideAngle = 62;    // full vertical angle of views from inside [degrees]
-constexpr double kOutsideAngle = 36;   // and from outside
-constexpr double kDimShare = 0.05;     // of the mean radiosity: less counts as unlit
-constexpr double kUnlitWeight = 0.1;   // of area that shows no light
+constexpr double kSeenShare = 0.01;   // of its rays must hit something, or a camera is passed over
+constexpr double kInsideAngle = 62;   // full vertical angle of views from inside [degrees]
+constexpr double kOutsideAngle = 36;  // and from outside
+constexpr double kDimShare = 0.05;    // of the mean radiosity: less counts as unlit
+constexpr double kUnlitWeight = 0.1;  // of area that shows no light
 constexpr double kThroughWeight = 0.2;  // of what is seen through the backs of one-sided patches
 constexpr double kFarthest = 1e5;       // distance of a usable camera, in diagonals of the scene
 constexpr double kNearlyAll = 0.9999;   // of a distance: nearer is in between
@@ -84,7 +84,7 @@ double FittingDistance(const Bounds& box, const View& view) {
 // Views of the whole box from outside: straight at its sides and from three-quarter angles.
 void AddOutsideViews(const Bounds& box, std::vector<View>& views) {
   for (double elevation : {0.0, 18.0, 35.0}) {
-    for (double azimuth = 0; azimuth < 360; azimuth += elevation > 0 ? 30 : 90) {
+    for (double azimuth = 0; azimuth<360; azimuth += elevation> 0 ? 30 : 90) {
       const double e = elevation * std::numbers::pi / 180, a = azimuth * std::numbers::pi / 180;
       const Vec3 way{std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
       View view = LookAt(box.Center() + way, box.Center(), kOutsideAngle);
@@ -115,8 +115,8 @@ Sight Look(const View& view, const PatchSet& patches, const RayScene& scene,
     const Vec3 way = Normalized(ray.direction);
     // A wall that was looked through from its back shows its front to a look the other way.
     const PictureHit back_look = scene.Cast(ray.origin + way * hit.distance_m, -way);
-    const bool through = back_look.patch != kNoPatch &&
-                         back_look.distance_m < kNearlyAll * hit.distance_m;
+    const bool through =
+        back_look.patch != kNoPatch && back_look.distance_m < kNearlyAll * hit.distance_m;
     const double clear = through ? kThroughWeight : 1;
     sight.fill_share += clear / (kProbeColumns * kProbeRows);
     const double off_axis = Dot(way, view.forward);
@@ -128,8 +128,8 @@ Sight Look(const View& view, const PatchSet& patches, const RayScene& scene,
   return sight;
 }
 
-// Cameras come from files: what they say may make no picture. Beyond kFarthest diagonals the float32
-// coordinates of rays tell nothing apart.
+// Cameras come from files: what they say may make no picture. Beyond kFarthest diagonals the
+// float32 coordinates of rays tell nothing apart.
 bool IsUsable(const View& view, const Bounds& box) {
   const double far = kFarthest * box.Diagonal();
   return IsFinite(view.right) && IsFinite(view.up) && IsFinite(view.forward) &&

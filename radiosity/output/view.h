@@ -10,16 +10,16 @@
 namespace lambert {
 
 struct View {
-  std::string origin;          // for people: "the scene's camera 'Main'"
-  Vec3 eye;                    // metres, relative to the patch set's origin
+  std::string origin;  // for people: "the scene's camera 'Main'"
+  Vec3 eye;            // metres, relative to the patch set's origin
   Vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  // orthonormal
   bool perspective = true;
-  double half_height = 0.5;    // of the picture: tangent of half the angle; orthographic: metres
-  double aspect = 1.5;         // width / height
+  double half_height = 0.5;  // of the picture: tangent of half the angle; orthographic: metres
+  double aspect = 1.5;       // width / height
 
   // The ray through a point of the picture: x 0..1 from left to right, y 0..1 from top to bottom.
   struct Ray {
-    Vec3 origin, direction;    // direction of any length
+    Vec3 origin, direction;  // direction of any length
   };
   Ray RayThrough(double x, double y) const;
 };

@@ -43,8 +43,8 @@ TEST(ConvergenceLog, RowsAreInTheFileAsSoonAsTheyAreAppended) {
   EXPECT_EQ(ReadFile(path), ConvergenceHeader() + FormatConvergenceRow(SomeRow()));
   ConvergenceLog moved = std::move(*log);
   ASSERT_TRUE(moved.Append(SomeRow()).ok());
-  EXPECT_EQ(ReadFile(path),
-            ConvergenceHeader() + FormatConvergenceRow(SomeRow()) + FormatConvergenceRow(SomeRow()));
+  EXPECT_EQ(ReadFile(path), ConvergenceHeader() + FormatConvergenceRow(SomeRow()) +
+                                FormatConvergenceRow(SomeRow()));
 }
 
 TEST(ConvergenceLog, AFileThatCannotBeMadeIsNamed) {

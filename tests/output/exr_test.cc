@@ -61,9 +61,16 @@ TEST(EncodeExr, HasOnePartAndTheAgreedChannels) {
     names.push_back(it.name());
     EXPECT_EQ(it.channel().type, Imf::FLOAT);
   }
-  const std::vector<std::string> expected = {"B", "G", "R", "id.patch", "irradiance.B",
-                                             "irradiance.G", "irradiance.R", "std_error.B",
-                                             "std_error.G", "std_error.R"};
+  const std::vector<std::string> expected = {"B",
+                                             "G",
+                                             "R",
+                                             "id.patch",
+                                             "irradiance.B",
+                                             "irradiance.G",
+                                             "irradiance.R",
+                                             "std_error.B",
+                                             "std_error.G",
+                                             "std_error.R"};
   EXPECT_EQ(names, expected);
 }
 

@@ -22,8 +22,7 @@ std::string GlbOf(const PatchSet& patches, const std::function<Rgb(Vec3)>& irrad
   const Solution solution = LitBy(patches, irradiance_lx);
   const View view = ChooseView(patches, **scene, solution.radiosity_lm_per_m2);
   const absl::StatusOr<std::string> glb = EncodeGlb(
-      patches,
-      SmoothIrradiance(patches, FindCornerFans(patches, **scene), solution.irradiance_lx),
+      patches, SmoothIrradiance(patches, FindCornerFans(patches, **scene), solution.irradiance_lx),
       ChooseExposure(solution.radiosity_lm_per_m2, patches.exitance_lm_per_m2), view);
   EXPECT_TRUE(glb.ok()) << glb.status();
   return *glb;
@@ -60,8 +59,8 @@ TEST(EncodeGlb, ReadsBackToTheSameTrianglesNodeByNode) {
 }
 
 TEST(EncodeGlb, EqualVerticesAreStoredOnce) {
-  const PatchSet patches = PatchesOf(SceneMaker().Quad({}, {1, 0, 0}, {0, 1, 0},
-                                                       {{0.5, 0.5, 0.5}, {}}, 8).Make());
+  const PatchSet patches =
+      PatchesOf(SceneMaker().Quad({}, {1, 0, 0}, {0, 1, 0}, {{0.5, 0.5, 0.5}, {}}, 8).Make());
   const Scene scene = Reloaded(GlbOf(patches, [](Vec3) { return Rgb{1, 1, 1}; }));
   EXPECT_EQ(scene.meshes[0].primitives[0].positions.size(), 81u);
 }

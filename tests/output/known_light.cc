@@ -43,8 +43,8 @@ RunRecord RecordOf(const PatchSet& patches, const std::function<Rgb(Vec3)>& irra
 
 std::string TestFolder() {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::string folder = testing::TempDir() + "lambert_output_" + test->test_suite_name() +
-                             "_" + test->name();
+  const std::string folder =
+      testing::TempDir() + "lambert_output_" + test->test_suite_name() + "_" + test->name();
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

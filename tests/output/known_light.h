@@ -10,8 +10,8 @@
 
 namespace lambert {
 
-// The solution under a given irradiance [lx] at each centroid (world metres): B = E + rho irradiance,
-// a standard error of a hundredth, and a balanced ledger.
+// The solution under a given irradiance [lx] at each centroid (world metres): B = E + rho
+// irradiance, a standard error of a hundredth, and a balanced ledger.
 Solution LitBy(const PatchSet& patches, const std::function<Rgb(Vec3)>& irradiance_lx);
 
 // A record of a finished run of two passes with that solution.

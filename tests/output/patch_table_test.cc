@@ -15,8 +15,9 @@ namespace {
 
 PatchTable SomeTable() {
   const PatchSet patches = PatchesOf(MakeCornell());
-  return MakePatchTable(
-      patches, LitBy(patches, [](Vec3 p) { return Rgb{1 / 3.0 + p.x, std::sqrt(2.0), 1e-300}; }));
+  return MakePatchTable(patches, LitBy(patches, [](Vec3 p) {
+                          return Rgb{1 / 3.0 + p.x, std::sqrt(2.0), 1e-300};
+                        }));
 }
 
 TEST(PatchTable, ReadsBackToTheSameBits) {

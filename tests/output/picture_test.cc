@@ -16,10 +16,10 @@ Picture Draw(const PatchSet& patches, const std::function<Rgb(Vec3)>& irradiance
   const auto scene = RayScene::Create(patches);
   EXPECT_TRUE(scene.ok());
   const Solution solution = LitBy(patches, irradiance_lx);
-  return DrawPicture(CameraView(patches.cameras[0]), patches, **scene, solution,
-                     SmoothIrradiance(patches, FindCornerFans(patches, **scene),
-                                      solution.irradiance_lx),
-                     longer_side);
+  return DrawPicture(
+      CameraView(patches.cameras[0]), patches, **scene, solution,
+      SmoothIrradiance(patches, FindCornerFans(patches, **scene), solution.irradiance_lx),
+      longer_side);
 }
 
 // A square of 2 m that a camera 1 m away sees to its edges (full angle 90 degrees).
@@ -38,8 +38,9 @@ TEST(DrawPicture, HasTheAspectOfItsView) {
 }
 
 TEST(DrawPicture, RadiosityIsExitancePlusReflectedIrradiance) {
-  const Picture picture =
-      Draw(Wall({{0.5, 0.25, 0}, {1, 2, 3}}), [](Vec3) { return Rgb{8, 8, 8}; });
+  const Picture picture = Draw(Wall({{0.5, 0.25, 0}, {1, 2, 3}}), [](Vec3) {
+    return Rgb{8, 8, 8};
+  });
   const size_t middle = 20 * 60 + 30;
   EXPECT_NEAR(picture.radiosity_lm_per_m2[middle].r, 5, 1e-6);
   EXPECT_NEAR(picture.radiosity_lm_per_m2[middle].g, 4, 1e-6);
@@ -71,8 +72,9 @@ TEST(DrawPicture, NothingIsZeroAndNoPatch) {
 
 TEST(DrawPicture, EdgesAreDrawnWithPartOfAPixel) {
   // From 1.013 m the edge of the square falls within a pixel.
-  const Picture picture =
-      Draw(Wall({{0.5, 0.5, 0.5}, {}}, 1.013), [](Vec3) { return Rgb{2, 2, 2}; });
+  const Picture picture = Draw(Wall({{0.5, 0.5, 0.5}, {}}, 1.013), [](Vec3) {
+    return Rgb{2, 2, 2};
+  });
   int partly = 0;
   for (const Rgb& radiosity : picture.radiosity_lm_per_m2) {
     partly += radiosity.g > 0.05 && radiosity.g < 0.95;

@@ -9,19 +9,18 @@ namespace lambert {
 namespace {
 
 TEST(ListSurfaces, MeansAreWeightedByAreaAndLargestComesFirst) {
-  const PatchSet patches = PatchesOf(SceneMaker()
-                                         .Quad({}, {1, 0, 0}, {0, 1, 0}, {{0.2, 0.2, 0.2}, {}}, 1,
-                                               "small")
-                                         .Quad({5, 0, 0}, {4, 0, 0}, {0, 1, 0}, {{1, 0, 0}, {}}, 1,
-                                               "")
-                                         .Make());
+  const PatchSet patches =
+      PatchesOf(SceneMaker()
+                    .Quad({}, {1, 0, 0}, {0, 1, 0}, {{0.2, 0.2, 0.2}, {}}, 1, "small")
+                    .Quad({5, 0, 0}, {4, 0, 0}, {0, 1, 0}, {{1, 0, 0}, {}}, 1, "")
+                    .Make());
   // The large one is lit on one of its two triangles.
   bool lit = false;
   const std::vector<Surface> surfaces = ListSurfaces(patches, LitBy(patches, [&](Vec3 p) {
-    if (p.x < 2) return Rgb{3, 3, 3};
-    lit = !lit;
-    return lit ? Rgb{10, 10, 10} : Rgb{};
-  }));
+                                                       if (p.x < 2) return Rgb{3, 3, 3};
+                                                       lit = !lit;
+                                                       return lit ? Rgb{10, 10, 10} : Rgb{};
+                                                     }));
   ASSERT_EQ(surfaces.size(), 2u);
   EXPECT_EQ(surfaces[0].name, "node 1");
   EXPECT_DOUBLE_EQ(surfaces[0].area_m2, 4);

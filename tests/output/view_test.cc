@@ -60,11 +60,8 @@ TEST(ChooseView, TakesTheCameraOfTheScene) {
 }
 
 TEST(ChooseView, PassesOverACameraThatSeesNothing) {
-  const PatchSet patches =
-      PatchesOf(SceneMaker()
-                    .Box({}, {1, 1, 1}, false, {kGray})
-                    .LookFrom({5, 0, 0}, {9, 0, 0})
-                    .Make());
+  const PatchSet patches = PatchesOf(
+      SceneMaker().Box({}, {1, 1, 1}, false, {kGray}).LookFrom({5, 0, 0}, {9, 0, 0}).Make());
   EXPECT_EQ(ViewOf(patches).origin, "a view chosen outside the scene");
 }
 

@@ -44,8 +44,7 @@ TEST(WriteOutputs, EqualRecordsGiveEqualBytes) {
 
 TEST(WriteOutputs, ASceneWithoutLightHasAllFilesToo) {
   const std::string folder = TestFolder();
-  const RunRecord record =
-      RecordOf(PatchesOf(MakeFurnace(0.5, 0)), [](Vec3) { return Rgb{}; });
+  const RunRecord record = RecordOf(PatchesOf(MakeFurnace(0.5, 0)), [](Vec3) { return Rgb{}; });
   ASSERT_TRUE(WriteOutputs(folder, record).ok());
   EXPECT_EQ(FilesIn(folder).size(), 6u);
 }
