@@ -1,0 +1,104 @@
+#include "radiosity/solve/flux_ledger.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "radiosity/shoot/shooter.h"
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+
+namespace lambert {
+namespace {
+
+TEST(CompensatedSum, KeepsWhatAPlainSumLoses) {
+  CompensatedSum sum;
+  for (double x : {1.0, 1e100, 1.0, -1e100}) sum.Add(x);
+  EXPECT_EQ(sum.value(), 2);
+}
+
+TEST(CompensatedSum, OfAMillionTenthsIsRightToTheLastBit) {
+  CompensatedSum sum;
+  for (int k = 0; k < 1000000; ++k) sum.Add(0.1);
+  EXPECT_EQ(sum.value(), static_cast<double>(1000000 * static_cast<long double>(0.1)));
+}
+
+TEST(FluxLedger, StartsWithAllEmissionUnsentPatchesFirst) {
+  Scene scene = MakeCornell(1);
+  scene.point_lights.push_back({"", {1, 1, 1}, {10, 20, 30}});
+  const PatchSet patches = PatchesOf(scene);
+  const FluxLedger ledger(patches);
+  ASSERT_EQ(ledger.unsent_lm().size(), static_cast<size_t>(patches.size()) + 1);
+  Rgb sum;
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    EXPECT_EQ(ledger.unsent_lm()[i], patches.exitance_lm_per_m2[i] * patches.area_m2[i]);
+    EXPECT_EQ(ledger.arrived_lm()[i], Rgb{});
+    sum = sum + ledger.unsent_lm()[i];
+  }
+  EXPECT_DOUBLE_EQ(ledger.unsent_lm().back().g, 4 * std::numbers::pi * 20);
+  sum = sum + ledger.unsent_lm().back();
+  EXPECT_NEAR(ledger.unsent_total_lm() / (sum.r + sum.g + sum.b), 1, 1e-14);
+  EXPECT_NEAR(ledger.emitted_total_lm() / ledger.unsent_total_lm(), 1, 1e-14);
+}
+
+TEST(FluxLedger, BooksAStepByHand) {
+  PatchSet patches = PatchesOf(MakeParallelSquares(0.5, 0.25));
+  const FluxLedger before(patches);
+  FluxLedger ledger(patches);
+  // Of patch `lit`, twice: half reflected. The rest escapes.
+  StepPlan plan;
+  plan.quantum_lm = {0.25, 0.25, 0.25};
+  UnitResult result;
+  result.deposits.resize(patches.size());
+  PatchIndex lit = 0;
+  while (patches.reflectance[lit].r != 0.5) ++lit;
+  result.deposits[lit] = {2, 2, 2, 1};
+  result.shot = {4, 4, 4};
+  result.escaped = {2, 2, 2};
+  ledger.Book(plan, result);
+  EXPECT_EQ(ledger.arrived_lm()[lit], (Rgb{0.5, 0.5, 0.5}));
+  EXPECT_EQ(ledger.hits()[lit], 1);
+  EXPECT_EQ(ledger.unsent_lm()[lit], (Rgb{0.25, 0.25, 0.25}));
+  EXPECT_DOUBLE_EQ(ledger.unsent_total_lm(), 0.75);
+  const Ledger balance = ledger.Balance();
+  EXPECT_DOUBLE_EQ(balance.absorbed.g, 0.25);
+  EXPECT_DOUBLE_EQ(balance.escaped.g, 0.5);
+  EXPECT_DOUBLE_EQ(balance.unsent.g, 0.25);
+  EXPECT_NEAR(balance.residual.g, before.emitted_total_lm() / 3 - 1, 1e-12);
+}
+
+// Steps of a Cornell box that is open in front, with the losses of roulette and of cosine weights.
+TEST(FluxLedger, BalancesAfterEveryStepInEveryChannel) {
+  const auto patches = std::make_shared<const PatchSet>(PatchesOf(MakeCornell(2)));
+  ShootOptions pmcr, phs;
+  phs.method = Method::kPhs;
+  phs.pyramids.min_rays = 64;
+  phs.pyramids.sampling = PyramidSampling::kSolidAngle;
+  for (const ShootOptions& options : {pmcr, phs}) {
+    const auto shooter = *Shooter::Create(patches, options);
+    FluxLedger ledger(*patches);
+    TestRandom random(1);
+    const double emitted = ledger.emitted_total_lm();
+    for (uint32_t step = 0; step < 40; ++step) {
+      const StepPlan plan = AllocateRays(ledger.unsent_lm(), emitted / 5000, random.Uniform());
+      UnitResult merged;
+      merged.deposits.resize(patches->size());
+      for (const WorkUnit& unit : CutIntoUnits(plan, 1, 0, step, 1000)) {
+        MergeResult(*shooter->Run(unit), merged);
+      }
+      ledger.Book(plan, merged);
+      const Ledger b = ledger.Balance();
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(b.absorbed[c] + b.escaped[c] + b.unsent[c] + b.residual[c], b.emitted[c],
+                    1e-12 * b.emitted[c])
+            << "step " << step;
+      }
+      EXPECT_NEAR(b.unsent.r + b.unsent.g + b.unsent.b, ledger.unsent_total_lm(), 1e-12 * emitted);
+    }
+    EXPECT_GT(ledger.Balance().escaped.r, 0);
+    EXPECT_LT(ledger.unsent_total_lm(), 1e-3 * emitted);
+  }
+}
+
+}  // namespace
+}  // namespace lambert
