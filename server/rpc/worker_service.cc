@@ -32,7 +32,7 @@ w1::Lease Encode(const GrantedLease& granted) {
   lease.mutable_unit_key()->set_solve_job(kJobPrefix + setup.job);
   lease.mutable_unit_key()->set_step_number(granted.step->number());
   lease.mutable_unit_key()->set_unit_index(granted.unit);
-  lease.set_unit(EncodeUnit(granted.step->units()[granted.unit]));
+  lease.set_unit(EncodeUnit(granted.step->Unit(granted.first_grain, granted.grain_count)));
   lease.mutable_patch_set_digest()->set_sha256(setup.patch_set_sha256);
   lease.mutable_patch_set_digest()->set_size_bytes(setup.patch_set_bytes);
   lease.set_shoot_options(setup.shoot_options);

@@ -14,36 +14,66 @@ struct Taker {
   double share;  // of its slots that are free: the largest takes first
 };
 
-// Open units of all jobs, taken from the jobs in turn.
-class OpenUnits {
+// What nobody works on, of all jobs, taken from the jobs in turn.
+class OpenWork {
  public:
-  explicit OpenUnits(const WorkState& state) {
+  OpenWork(const WorkState& state, const WorkOptions& options) : options_(options) {
+    for (const auto& [name, session] : state.sessions) {
+      if (!session.draining) slots_ += session.slots;
+    }
     for (const auto& [job, step] : state.steps) {
-      if (step.open.empty()) continue;
-      queues_.push_back({&job, &step.open, 0, static_cast<int>(step.leased.size())});
-      count_ += static_cast<int>(step.open.size());
+      const int grains = static_cast<int>(step.grain_rays.size()) - step.next_grain;
+      if (step.open.empty() && grains == 0) continue;
+      queues_.push_back({&job, &step, 0, step.next_grain, static_cast<int>(step.leased.size())});
+      count_ += static_cast<int>(step.open.size()) + grains;
     }
   }
+  // Grains that are left, and units that opened again.
   int count() const { return count_; }
   // Requires: count() > 0. Takes from the job that holds the fewest leases.
-  UnitRef Take() {
+  Grant TakeFor(const std::string& session) {
     Queue* best = nullptr;
     for (Queue& queue : queues_) {
-      if (queue.next == queue.open->size()) continue;
+      if (queue.IsEmpty()) continue;
       if (best == nullptr || queue.leased < best->leased) best = &queue;
     }
     ++best->leased;
-    --count_;
-    return {*best->job, (*best->open)[best->next++]};
+    if (best->next_open < best->step->open.size()) {
+      --count_;
+      return {session, *best->job, best->step->open[best->next_open++], 0};
+    }
+    const int grains = NewUnitSize(*best);
+    best->next_grain += grains;
+    count_ -= grains;
+    return {session, *best->job, -1, grains};
   }
 
  private:
   struct Queue {
     const std::string* job;
-    const std::deque<int>* open;
-    size_t next;
+    const StepState* step;
+    size_t next_open;
+    int next_grain;
     int leased;
+    bool IsEmpty() const {
+      return next_open == step->open.size() &&
+             next_grain == static_cast<int>(step->grain_rays.size());
+    }
   };
+  int NewUnitSize(const Queue& queue) const {
+    const std::vector<int64_t>& rays = queue.step->grain_rays;
+    const int left = static_cast<int>(rays.size()) - queue.next_grain;
+    const int wanted = std::max(1, left / (2 * std::max(slots_, 1)));
+    int64_t sum = rays[queue.next_grain];
+    int count = 1;
+    while (count < wanted && sum + rays[queue.next_grain + count] <= options_.max_unit_rays) {
+      sum += rays[queue.next_grain + count++];
+    }
+    return count;
+  }
+
+  const WorkOptions& options_;
+  int slots_ = 0;  // of all workers
   std::vector<Queue> queues_;
   int count_ = 0;
 };
@@ -67,13 +97,13 @@ int FreeSlotsElsewhere(const WorkState& state) {
   return free;
 }
 
-void FillSlots(std::vector<Taker>& takers, OpenUnits& open, std::vector<Grant>& grants) {
+void FillSlots(std::vector<Taker>& takers, OpenWork& open, std::vector<Grant>& grants) {
   while (open.count() > 0) {
     auto taker = std::max_element(takers.begin(), takers.end(), [](const Taker& a, const Taker& b) {
       return a.share < b.share;
     });
     if (taker == takers.end() || taker->free <= 0) return;
-    grants.push_back({*taker->name, open.Take()});
+    grants.push_back(open.TakeFor(*taker->name));
     --taker->free;
     taker->share = static_cast<double>(taker->free) / taker->session->slots;
   }
@@ -120,12 +150,12 @@ std::vector<Grant> NextLeases(const WorkState& state, TimePoint now, const WorkO
   std::vector<Grant> grants;
   std::vector<Taker> takers = WaitingTakers(state);
   if (takers.empty()) return grants;
-  OpenUnits open(state);
+  OpenWork open(state, options);
   FillSlots(takers, open, grants);
   const int elsewhere = FreeSlotsElsewhere(state);
   for (Taker& taker : takers) {
     if (taker.free != 0 || open.count() <= elsewhere) continue;
-    grants.push_back({*taker.name, open.Take()});
+    grants.push_back(open.TakeFor(*taker.name));
     taker.free = -1;
   }
   if (open.count() > 0) return grants;
@@ -135,7 +165,7 @@ std::vector<Grant> NextLeases(const WorkState& state, TimePoint now, const WorkO
   for (const auto& [granted, unit] : LateUnits(state, now, options)) {
     for (Taker& taker : takers) {
       if (taker.free <= 0 || Holds(state, *taker.session, unit)) continue;
-      grants.push_back({*taker.name, unit});
+      grants.push_back({*taker.name, unit.job, unit.unit, 0});
       --taker.free;
       break;
     }

@@ -10,12 +10,16 @@ namespace lambert::server {
 
 struct Grant {
   std::string session;
-  UnitRef unit;
+  std::string job;
+  int unit = -1;       // of the job's step; -1: a new one
+  int new_grains = 0;  // of a new unit
   bool operator==(const Grant&) const = default;
 };
 
 // Pure: equal arguments give equal grants. Only sessions that wait and do not drain get any.
-//  1. Open units fill free slots, the emptiest worker first, jobs in turn.
+//  1. Open work fills free slots, the emptiest worker first, jobs in turn. A new unit takes half of
+//     its share of the grains that are left, so units get smaller towards the end of a step and all
+//     workers end together (guided self-scheduling).
 //  2. What is still open is granted ahead, one unit a worker beyond its slots, so that the next unit
 //     lies there when one ends; but never a unit for which somebody else has a free slot.
 //  3. With nothing open, free slots repeat units that are late (their worker may be frozen), the

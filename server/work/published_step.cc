@@ -6,35 +6,45 @@
 
 namespace lambert::server {
 
-PublishedStep::PublishedStep(WorkSetup setup, int64_t number, std::vector<WorkUnit> units)
-    : setup_(std::move(setup)), number_(number), units_(std::move(units)) {}
+PublishedStep::PublishedStep(WorkSetup setup, int64_t number, std::vector<WorkUnit> grains)
+    : setup_(std::move(setup)), number_(number), grains_(std::move(grains)) {}
 
-absl::StatusOr<UnitResult> PublishedStep::Check(int unit, const std::string& worker,
+WorkUnit PublishedStep::Unit(int first_grain, int grain_count) const {
+  WorkUnit unit = grains_[first_grain];
+  for (int i = first_grain + 1; i < first_grain + grain_count; ++i) {
+    unit.visits.insert(unit.visits.end(), grains_[i].visits.begin(), grains_[i].visits.end());
+  }
+  return unit;
+}
+
+absl::StatusOr<UnitResult> PublishedStep::Check(int first_grain, int grain_count,
+                                                const std::string& worker,
                                                 const std::string& bytes) const {
   absl::StatusOr<UnitResult> result = DecodeUnitResult(bytes, setup_.patch_count);
-  absl::Status status = result.ok() ? CheckLedger(units_[unit], *result) : result.status();
+  absl::Status status =
+      result.ok() ? CheckLedger(Unit(first_grain, grain_count), *result) : result.status();
   if (status.ok()) return result;
   return MakeError(absl::StatusCode::kInvalidArgument,
                    {"RESULT_INVALID",
-                    "worker " + worker + ", unit " + std::to_string(unit) + " of " + setup_.job,
+                    "worker " + worker + ", a unit of " + setup_.job,
                     std::string(status.message()), "check that machine's memory and programs"});
 }
 
-void PublishedStep::Merge(const UnitResult& result) {
+void PublishedStep::Merge(const UnitResult& result, int grain_count) {
   absl::MutexLock lock(&mutex_);
   MergeResult(result, merged_);
-  ++merged_units_;
+  merged_grains_ += static_cast<size_t>(grain_count);
 }
 
 void PublishedStep::Abort(const absl::Status& status) {
   absl::MutexLock lock(&mutex_);
-  if (status_.ok() && merged_units_ < units_.size()) status_ = status;
+  if (status_.ok() && merged_grains_ < grains_.size()) status_ = status;
 }
 
 absl::StatusOr<UnitResult> PublishedStep::Wait() {
   absl::MutexLock lock(&mutex_);
   auto ended = [this]() ABSL_SHARED_LOCKS_REQUIRED(mutex_) {
-    return !status_.ok() || merged_units_ == units_.size();
+    return !status_.ok() || merged_grains_ == grains_.size();
   };
   mutex_.Await(absl::Condition(&ended));
   if (!status_.ok()) return status_;

@@ -23,30 +23,31 @@ struct WorkSetup {
 // Thread safe.
 class PublishedStep {
  public:
-  PublishedStep(WorkSetup setup, int64_t number, std::vector<WorkUnit> units);
+  PublishedStep(WorkSetup setup, int64_t number, std::vector<WorkUnit> grains);
 
   const WorkSetup& setup() const { return setup_; }
   int64_t number() const { return number_; }
-  const std::vector<WorkUnit>& units() const { return units_; }
 
-  // Decodes a result of a unit and checks its ledger. INVALID_ARGUMENT (RESULT_INVALID), naming
-  // `worker`. Requires: 0 <= unit < units().size().
-  absl::StatusOr<UnitResult> Check(int unit, const std::string& worker,
+  // Some grains as one unit: its result is the sum of theirs. Requires: they are there.
+  WorkUnit Unit(int first_grain, int grain_count) const;
+  // Decodes a result of these grains and checks its ledger. INVALID_ARGUMENT (RESULT_INVALID),
+  // naming `worker`. Requires: they are there.
+  absl::StatusOr<UnitResult> Check(int first_grain, int grain_count, const std::string& worker,
                                    const std::string& bytes) const;
-  // Adds a checked result. Requires: once a unit.
-  void Merge(const UnitResult& result);
+  // Adds a checked result of so many grains. Requires: each grain once.
+  void Merge(const UnitResult& result, int grain_count);
   // Ends the step without a result. The first of Abort and the last Merge counts.
   void Abort(const absl::Status& status);
-  // Blocks until every unit is merged, or the step aborted.
+  // Blocks until every grain is merged, or the step aborted.
   absl::StatusOr<UnitResult> Wait();
 
  private:
   const WorkSetup setup_;
   const int64_t number_;
-  const std::vector<WorkUnit> units_;
+  const std::vector<WorkUnit> grains_;
   absl::Mutex mutex_;
   UnitResult merged_ ABSL_GUARDED_BY(mutex_);
-  size_t merged_units_ ABSL_GUARDED_BY(mutex_) = 0;
+  size_t merged_grains_ ABSL_GUARDED_BY(mutex_) = 0;
   absl::Status status_ ABSL_GUARDED_BY(mutex_);
 };
 

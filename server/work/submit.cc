@@ -36,23 +36,27 @@ absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
   std::shared_ptr<PublishedStep> step;
   std::string worker;
   bool is_new = false;
+  int first_grain = 0, grain_count = 0;
   {
     absl::MutexLock lock(&mutex_);
     step = FindStep(submission);
     worker = WorkerOf(submission.lease);
     if (step != nullptr) {
-      if (submission.unit < 0 || submission.unit >= static_cast<int>(step->units().size())) {
+      const std::vector<UnitState>& units = state_.steps.at(submission.job).units;
+      if (submission.unit < 0 || submission.unit >= static_cast<int>(units.size())) {
         return MakeError(absl::StatusCode::kInvalidArgument,
                          {"FIELD_INVALID", "unit_key.unit_index", "there is no such unit",
                           "use programs of one version"});
       }
-      const UnitState& unit = state_.steps.at(submission.job).units[submission.unit];
+      const UnitState& unit = units[submission.unit];
+      first_grain = unit.first_grain;
+      grain_count = unit.grain_count;
       is_new = !unit.done || unit.result_digest != submission.digest;
     }
   }
   // A repetition need not be decoded; one that differs must be sound before it accuses anybody.
   absl::StatusOr<UnitResult> result =
-      is_new ? step->Check(submission.unit, worker, submission.bytes) : UnitResult{};
+      is_new ? step->Check(first_grain, grain_count, worker, submission.bytes) : UnitResult{};
   absl::StatusOr<SubmitOutcome> outcome = SubmitOutcome::kObsolete;
   Calls calls;
   {
@@ -79,7 +83,7 @@ absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
   for (auto& call : calls) call();
   if (outcome.ok() && *outcome == SubmitOutcome::kAccepted) {
     result->cpu_seconds = submission.cpu_seconds;
-    step->Merge(*result);
+    step->Merge(*result, grain_count);
   }
   return outcome;
 }

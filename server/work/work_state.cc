@@ -16,14 +16,19 @@ void RevokeAll(WorkState& state, UnitState& unit) {
 }  // namespace
 
 void AddStep(WorkState& state, const std::string& job, int64_t number,
-             const std::vector<int64_t>& rays) {
+             const std::vector<int64_t>& grain_rays) {
   StepState& step = state.steps[job];
   step.number = number;
-  step.units.resize(rays.size());
-  for (size_t i = 0; i < rays.size(); ++i) {
-    step.units[i].rays = rays[i];
-    step.open.push_back(static_cast<int>(i));
-  }
+  step.grain_rays = grain_rays;
+}
+
+int CutUnit(WorkState& state, const std::string& job, int grain_count) {
+  StepState& step = state.steps.at(job);
+  UnitState& unit = step.units.emplace_back();
+  unit.first_grain = step.next_grain;
+  unit.grain_count = grain_count;
+  for (int i = 0; i < grain_count; ++i) unit.rays += step.grain_rays[step.next_grain++];
+  return static_cast<int>(step.units.size()) - 1;
 }
 
 void RemoveStep(WorkState& state, const std::string& job) {

@@ -20,8 +20,13 @@ struct WorkOptions {
   Duration straggler_unknown = std::chrono::seconds(1);  // ... nor before that, its job's pace unknown
   double straggler_factor = 2;  // a unit is late after this many times its expected time, >= 1
   int max_attempts = 5;         // leases of one unit that may end without a result, > 0
+  int64_t max_unit_rays = 1 << 21;  // about half a second: grains are lent together up to that, > 0
 };
 
+// What is lent: some of the work units that the solver cut, one after the other. Those are small, so
+// that a dozen workers are kept busy; a few workers get many at once, and send one result for all.
+// The solver's units are called grains here.
+//
 // A unit of a published step. A job has at most one step at a time, so the job's id names the step.
 struct UnitRef {
   std::string job;
@@ -39,6 +44,7 @@ struct LeaseState {
 };
 
 struct UnitState {
+  int first_grain = 0, grain_count = 0;
   bool done = false;
   int attempts = 0;              // leases that ended without a result
   int64_t rays = 0;
@@ -49,8 +55,10 @@ struct UnitState {
 
 struct StepState {
   int64_t number = 0;
-  std::vector<UnitState> units;
-  std::deque<int> open;          // units that are neither done nor leased, next first
+  std::vector<int64_t> grain_rays;  // by grain
+  int next_grain = 0;            // grains from here on are in no unit yet
+  std::vector<UnitState> units;  // that were lent so far
+  std::deque<int> open;          // units that are neither done nor leased any more, next first
   std::set<int> leased;          // units that are leased and not done
 };
 
@@ -73,9 +81,13 @@ struct WorkState {
   std::map<std::string, double> seconds_per_ray;  // by job id: measured pace of its units
 };
 
-// Publishes a step with one open unit for each element of `rays`. Requires: the job has none.
+// Publishes a step whose grains have these rays. Requires: the job has none.
 void AddStep(WorkState& state, const std::string& job, int64_t number,
-             const std::vector<int64_t>& rays);
+             const std::vector<int64_t>& grain_rays);
+
+// Makes the next `grain_count` grains of a job's step a unit and returns its number. Requires: so
+// many are left.
+int CutUnit(WorkState& state, const std::string& job, int grain_count);
 
 // Takes a job's step away; its leases are revoked. Does nothing where there is none.
 void RemoveStep(WorkState& state, const std::string& job);

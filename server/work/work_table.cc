@@ -230,8 +230,12 @@ void WorkTable::Dispatch(Calls& calls) {
   std::map<std::string, std::vector<GrantedLease>> granted;
   for (const Grant& grant : NextLeases(state_, now, options_)) {
     const std::string lease = grant.session + "/leases/" + std::to_string(next_name_++);
-    AddLease(state_, grant.unit, grant.session, lease, now);
-    granted[grant.session].push_back({lease, steps_.at(grant.unit.job), grant.unit.unit});
+    const int unit =
+        grant.new_grains > 0 ? CutUnit(state_, grant.job, grant.new_grains) : grant.unit;
+    AddLease(state_, {grant.job, unit}, grant.session, lease, now);
+    const UnitState& lent = state_.steps.at(grant.job).units[unit];
+    granted[grant.session].push_back(
+        {lease, steps_.at(grant.job), unit, lent.first_grain, lent.grain_count});
   }
   for (auto& [name, session] : state_.sessions) {
     Exchange& exchange = exchanges_[name];
@@ -256,16 +260,16 @@ void WorkTable::Answer(const std::string& name, std::vector<GrantedLease> leases
 }
 
 absl::StatusOr<std::shared_ptr<PublishedStep>> WorkTable::Publish(
-    const WorkSetup& setup, const std::vector<WorkUnit>& units) {
+    const WorkSetup& setup, const std::vector<WorkUnit>& grains) {
   std::vector<int64_t> rays;
-  for (const WorkUnit& unit : units) rays.push_back(unit.RayCount());
+  for (const WorkUnit& grain : grains) rays.push_back(grain.RayCount());
   Calls calls;
   std::shared_ptr<PublishedStep> step;
   {
     absl::MutexLock lock(&mutex_);
     if (shutting_down_) return ShuttingDown();
     if (auto aborted = aborted_.find(setup.job); aborted != aborted_.end()) return aborted->second;
-    step = std::make_shared<PublishedStep>(setup, next_step_++, units);
+    step = std::make_shared<PublishedStep>(setup, next_step_++, grains);
     steps_[setup.job] = step;
     AddStep(state_, setup.job, step->number(), rays);
     Dispatch(calls);

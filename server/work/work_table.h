@@ -34,6 +34,7 @@ struct GrantedLease {
   std::string name;
   std::shared_ptr<const PublishedStep> step;
   int unit = 0;
+  int first_grain = 0, grain_count = 0;
 };
 
 struct SyncReply {
@@ -87,11 +88,11 @@ class WorkTable {
   // RESULT_INVALID: refused, the unit opens again. NONDETERMINISTIC_RESULT: the job's step fails.
   absl::StatusOr<SubmitOutcome> Submit(const Submission& submission);
 
-  // Offers the units of a step to workers. PublishedStep::Wait then ends with the merged result, or
+  // Offers the grains of a step to workers. PublishedStep::Wait then ends with the merged result, or
   // with UNIT_ATTEMPTS_EXHAUSTED, NONDETERMINISTIC_RESULT, SHUTTING_DOWN, or what AbortJob was given.
-  // Requires: at least one unit; the job's step before was withdrawn.
+  // Requires: at least one grain; the job's step before was withdrawn.
   absl::StatusOr<std::shared_ptr<PublishedStep>> Publish(const WorkSetup& setup,
-                                                         const std::vector<WorkUnit>& units);
+                                                         const std::vector<WorkUnit>& grains);
   // Takes the job's step away; results that still come are obsolete.
   void Withdraw(const std::string& job);
   // Ends the job's step, and each later one, with `status`, until ForgetJob.

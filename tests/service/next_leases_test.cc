@@ -58,11 +58,28 @@ TEST(NextLeases, NoUnitIsGrantedTwiceAtOnce) {
   AddWaiting(state, "a", 3);
   AddWaiting(state, "b", 3);
   AddUnits(state, "job", 8);
-  std::vector<UnitRef> units;
-  for (const Grant& grant : NextLeases(state, kNow, {})) units.push_back(grant.unit);
-  std::sort(units.begin(), units.end());
-  EXPECT_EQ(std::adjacent_find(units.begin(), units.end()), units.end());
-  EXPECT_EQ(units.size(), 8u);
+  int grains = 0;
+  for (const Grant& grant : NextLeases(state, kNow, {})) grains += grant.new_grains;
+  EXPECT_EQ(grains, 8);
+}
+
+TEST(NextLeases, UnitsShrinkTowardsTheEndOfAStep) {
+  WorkState state;
+  AddWaiting(state, "a", 1);
+  AddWaiting(state, "b", 1);
+  AddUnits(state, "job", 32);
+  std::vector<int> sizes;
+  for (const Grant& grant : NextLeases(state, kNow, {})) sizes.push_back(grant.new_grains);
+  EXPECT_EQ(sizes, (std::vector<int>{8, 6, 4, 3}));
+}
+
+TEST(NextLeases, GrainsThatAreLargeEnoughAreLentOneByOne) {
+  WorkState state;
+  AddWaiting(state, "a", 1);
+  WorkOptions options;
+  options.max_unit_rays = 2 * kRays - 1;
+  AddUnits(state, "job", 32);
+  for (const Grant& grant : NextLeases(state, kNow, options)) EXPECT_EQ(grant.new_grains, 1);
 }
 
 TEST(NextLeases, NothingIsGrantedAheadWhileAnotherWorkerWithAFreeSlotIsOnItsWay) {
@@ -91,7 +108,7 @@ TEST(NextLeases, JobsTakeTurns) {
   AddUnits(state, "second", 10);
   const std::vector<Grant> grants = NextLeases(state, kNow, {});
   const auto of_first = std::count_if(grants.begin(), grants.end(),
-                                      [](const Grant& grant) { return grant.unit.job == "first"; });
+                                      [](const Grant& grant) { return grant.job == "first"; });
   EXPECT_GE(of_first, 2);
   EXPECT_LE(of_first, 3);
 }
@@ -103,6 +120,7 @@ class LateUnit : public testing::Test {
     AddWaiting(state_, "idle", 1);
     state_.sessions["frozen"].waiting = false;
     AddUnits(state_, "job", 1);
+    CutUnit(state_, "job", 1);
     AddLease(state_, {"job", 0}, "frozen", "frozen/leases/1", kNow);
     state_.seconds_per_ray["job"] = 1e-3;  // the unit should take a second
   }
@@ -112,7 +130,7 @@ class LateUnit : public testing::Test {
 TEST_F(LateUnit, IsRepeatedElsewhereAfterTwiceItsTime) {
   EXPECT_TRUE(NextLeases(state_, kNow + std::chrono::milliseconds(1999), {}).empty());
   EXPECT_EQ(NextLeases(state_, kNow + std::chrono::milliseconds(2000), {}),
-            (std::vector<Grant>{{"idle", {"job", 0}}}));
+            (std::vector<Grant>{{"idle", "job", 0, 0}}));
 }
 
 TEST_F(LateUnit, IsNeverRepeatedOnTheWorkerThatHoldsIt) {
@@ -140,6 +158,7 @@ TEST(WorkState, AUnitWhoseOnlyLeaseEndsOpensAgainAsTheNext) {
   WorkState state;
   AddWaiting(state, "a", 1);
   AddUnits(state, "job", 3);
+  for (int i = 0; i < 3; ++i) CutUnit(state, "job", 1);
   AddLease(state, {"job", 2}, "a", "lease", kNow);
   RemoveLease(state, "lease", /*failed=*/true);
   EXPECT_EQ(state.steps["job"].open.front(), 2);
@@ -151,6 +170,7 @@ TEST(WorkState, ARevokedLeaseFillsItsSlotUntilItIsRemoved) {
   WorkState state;
   AddWaiting(state, "a", 1);
   AddUnits(state, "job", 1);
+  CutUnit(state, "job", 1);
   AddLease(state, {"job", 0}, "a", "lease", kNow);
   RemoveStep(state, "job");
   EXPECT_EQ(state.sessions["a"].FreeSlots(), 0);

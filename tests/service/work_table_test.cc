@@ -226,7 +226,7 @@ TEST_F(WorkTableTest, AUnitThatFailsFiveTimesFailsTheStepAndSaysWhy) {
 TEST_F(WorkTableTest, ClosingASessionIsNoAttempt) {
   auto step = Publish(1);
   for (int i = 0; i < 2 * options_.max_attempts; ++i) {
-    FakeWorker worker(&table_, "w" + std::to_string(i));
+    FakeWorker worker(&table_, std::to_string(i));
     worker.Sync();
     ASSERT_EQ(worker.leases.size(), 1u);
     table_.CloseSession(worker.session());
