@@ -76,7 +76,7 @@ void PrintPlan(const Plan& plan, const Options& options) {
               FormatCount(static_cast<double>(plan.first_pass_rays), "rays").c_str());
   std::printf("worker memory  %s with one thread", FormatBytes(plan.worker_bytes).c_str());
   if (options.server.empty()) {
-    std::printf("; here %d workers with %d threads each", options.workers,
+    std::printf("; here workers: %d, threads of each: %d", options.workers,
                 ThreadsPerWorker(options));
   }
   std::printf("\n");

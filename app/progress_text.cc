@@ -9,6 +9,7 @@ namespace lambert::app {
 namespace {
 
 constexpr int kBarColumns = 20;
+constexpr double kLongestForecast_s = 30 * 86400.0;  // more is as good as never
 
 // Three significant digits without an exponent.
 std::string ThreeDigits(double value) {
@@ -43,7 +44,8 @@ std::string FormatDuration(double seconds) {
   const auto whole = static_cast<int64_t>(std::llround(seconds));
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
-  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+  if (whole < 48 * 3600) return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+  return fmt::format("{} days", whole / 86400);
 }
 
 std::string FormatBytes(int64_t bytes) {
@@ -75,29 +77,32 @@ double EstimateSecondsLeft(const Progress& progress, double max_time_s) {
 }
 
 std::string DescribeProgress(const Progress& progress, double max_time_s) {
-  std::string text =
-      fmt::format("pass {}  {}", progress.pass + 1, FormatCount(progress.rays, "rays"));
-  if (progress.seconds > 0) {
-    text += "  " + FormatCount(progress.rays / progress.seconds, "rays/s");
-  }
+  std::string text = fmt::format("pass {}", progress.pass + 1);
+  const std::string wanted =
+      progress.wanted_rms_area > 0 ? " -> " + FormatPercent(progress.wanted_rms_area) : "";
   if (progress.estimated_rms_area >= 0) {
-    text += "  error " + FormatPercent(progress.estimated_rms_area);
-    if (progress.wanted_rms_area > 0) text += " -> " + FormatPercent(progress.wanted_rms_area);
-  } else if (progress.wanted_rms_area > 0) {
-    text += "  error ? -> " + FormatPercent(progress.wanted_rms_area);
+    text += "  error " + FormatPercent(progress.estimated_rms_area) + wanted;
+  } else if (!wanted.empty()) {
+    text += "  error ?" + wanted;
   }
-  text += "  unsent " + FormatPercent(progress.unsent_fraction);
   const double left_s = EstimateSecondsLeft(progress, max_time_s);
-  if (left_s >= 0) text += "  " + FormatDuration(left_s) + " left";
-  return text;
+  if (left_s >= 0 && left_s < kLongestForecast_s) text += "  " + FormatDuration(left_s) + " left";
+  const auto rays = static_cast<double>(progress.rays);
+  text += "  " + FormatCount(rays, "rays");
+  if (progress.seconds > 0) text += "  " + FormatCount(rays / progress.seconds, "rays/s");
+  return text + "  unsent " + FormatPercent(progress.unsent_fraction);
 }
 
 std::string DrawProgressBar(const Progress& progress, double max_time_s, int width) {
+  const auto columns = static_cast<size_t>(std::max(width, 0));
   const double done = EstimateFractionDone(progress, max_time_s);
   const int filled = static_cast<int>(done * kBarColumns);
+  const std::string text = DescribeProgress(progress, max_time_s);
   std::string line = fmt::format("[{:<{}}] {:3.0f} %  {}", std::string(filled, '='), kBarColumns,
-                                 done * 100, DescribeProgress(progress, max_time_s));
-  if (width > 0 && line.size() > static_cast<size_t>(width)) line.resize(width);
+                                 done * 100, text);
+  // Where not all has room, the words tell more than the bar.
+  if (line.size() > columns) line = fmt::format("{:.0f} %  {}", done * 100, text);
+  if (line.size() > columns) line.resize(columns);
   return line;
 }
 

@@ -57,12 +57,13 @@ TEST(ProgressText, NumbersHaveThreeDigitsAndAUnit) {
   EXPECT_EQ(FormatDuration(0.4), "0.40 s");
   EXPECT_EQ(FormatDuration(184), "3 min 04 s");
   EXPECT_EQ(FormatDuration(7620), "2 h 07 min");
+  EXPECT_EQ(FormatDuration(3 * 86400), "3 days");
   EXPECT_EQ(FormatBytes(3 << 20), "3.00 MiB");
 }
 
 TEST(ProgressText, ALineSaysAllThatIsKnown) {
   EXPECT_EQ(DescribeProgress(HalfWay(), 0),
-            "pass 12  3.42 Mrays  1.71 Mrays/s  error 2.0 % -> 1.0 %  unsent 0.3 %  6.0 s left");
+            "pass 12  error 2.0 % -> 1.0 %  6.0 s left  3.42 Mrays  1.71 Mrays/s  unsent 0.3 %");
 }
 
 TEST(ProgressText, TheErrorFallsWithTheRootOfTheRays) {
@@ -85,7 +86,9 @@ TEST(ProgressText, NothingIsSaidOfWhatIsNotKnown) {
 
 TEST(ProgressText, ABarFitsItsTerminal) {
   EXPECT_EQ(DrawProgressBar(HalfWay(), 0, 200).find("[=====               ]  25 %  pass 12"), 0u);
+  EXPECT_EQ(DrawProgressBar(HalfWay(), 0, 90).find("25 %  pass 12  error 2.0 % -> 1.0 %"), 0u);
   EXPECT_EQ(DrawProgressBar(HalfWay(), 0, 30).size(), 30u);
+  EXPECT_EQ(DrawProgressBar(HalfWay(), 0, -1), "");
 }
 
 TEST(ProgressPrinter, PlainLinesComeOnceASecondAndTheLastIsNotLost) {
@@ -113,7 +116,7 @@ TEST(ProgressPrinter, ABarStaysOnOneLineAndNotesStandAboveIt) {
   printed.printer().Finish();
   const std::string text = printed.text();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);  // after the note, and at the end
-  EXPECT_NE(text.find("\r\033[Kwarning: something\n["), std::string::npos) << text;
+  EXPECT_NE(text.find("\r\033[Kwarning: something\n25 %"), std::string::npos) << text;
 }
 
 TEST(ProgressPrinter, JsonLinesAreJson) {
