@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/commands.h"
+#include "app/idle_notice.h"
 #include "app/measure.h"
 #include "app/progress.h"
 #include "app/progress_text.h"
@@ -120,7 +121,11 @@ absl::StatusOr<client::Job> Bake::Follow(const client::Job& job) {
   });
   client::WatchOptions watch;
   watch.with_solutions = measurer_.wanted();
-  watch.on_progress = [this](const Progress& progress) { printer_.Update(progress); };
+  IdleNotice idle(&client, &printer_, options_.server);
+  watch.on_progress = [&](const Progress& progress) {
+    printer_.Update(progress);
+    idle.Check(progress);
+  };
   watch.on_snapshot = [&](const Snapshot& snapshot) { return TakeSnapshot(job.name, snapshot); };
   auto ended = client.Watch(job.name, watch);
   if (!ended.ok() && !interrupt_.seen() &&

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/commands.h"
+#include "app/idle_notice.h"
 #include "app/measure.h"
 #include "app/progress.h"
 #include "app/progress_text.h"
@@ -135,7 +136,11 @@ absl::StatusOr<ExitCode> RunWatch(const Options& options, Interrupt& interrupt) 
   if (!job.ok()) return job.status();
   printer.SetTimeBudget(job->solve_options.max_time_s);
   client::WatchOptions watch;
-  watch.on_progress = [&](const Progress& progress) { printer.Update(progress); };
+  IdleNotice idle(&(*connection)->client(), &printer, options.server);
+  watch.on_progress = [&](const Progress& progress) {
+    printer.Update(progress);
+    idle.Check(progress);
+  };
   watch.on_snapshot = [&](const Snapshot& snapshot) {
     printer.Update(snapshot.progress);
     return absl::OkStatus();

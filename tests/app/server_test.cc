@@ -93,6 +93,16 @@ TEST_F(ServerTest, ACancelledJobKeepsItsResult) {
   ExpectAllFiles("out");
 }
 
+TEST_F(ServerTest, AJobWithoutWorkersSaysSoAndGoesOnOnceOneComes) {
+  StartServer();
+  const auto bake = Start(There({"bake", "room.glb", "-o", "out", "--max-rays", "20000"}));
+  ASSERT_NE(bake->WaitForError("start one with: lambert-worker --server " + address_),
+            std::string::npos)
+      << bake->error();
+  StartWorker();
+  EXPECT_EQ(bake->Wait(), 0) << bake->error();
+}
+
 TEST_F(ServerTest, CtrlCInWatchLeavesTheJobAlone) {
   StartServer();
   StartWorker();
