@@ -1,4 +1,4 @@
-// What PHS shoots equals what it was given in expectation, and arrives where PMCR's rays do.
+// What is shot equals what was given, in expectation, and arrives where it should.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -94,6 +94,26 @@ TEST(PhsFlux, ArrivesWhereThatOfPmcrArrives) {
     ASSERT_GE(compared, 8);
     EXPECT_LT(z2 / compared, MeanZ2Limits(compared).high);
     EXPECT_GT(z2 / compared, MeanZ2Limits(compared).low);
+  }
+}
+
+TEST(PointLightFlux, FromTheCentreOfACubeReachesItsSixFacesAlike) {
+  PatchSet cube = PatchesOf(MakeFurnace(0.5));
+  cube.point_lights.push_back({"", {0, 0, 0}, {1, 1, 1}});
+  const auto patches = std::make_shared<const PatchSet>(cube);
+  for (Method method : {Method::kPmcr, Method::kPhs}) {
+    ShootOptions options;
+    options.method = method;
+    const auto shooter = *Shooter::Create(patches, options);
+    const WorkUnit unit{1, 0, 0, {{patches->size(), 60000, 0, 60000, {60000, 0, 0}}}};
+    const UnitResult result = *shooter->Run(unit);
+    EXPECT_EQ(result.escaped, Quanta{});
+    std::vector<int64_t> faces(6);
+    for (PatchIndex i = 0; i < patches->size(); ++i) {
+      EXPECT_EQ(result.deposits[i].r, result.deposits[i].hits) << "each ray carries one quantum";
+      faces[patches->source[i].primitive] += result.deposits[i].hits;
+    }
+    EXPECT_LT(ChiSquared(faces, std::vector<double>(6, 1.0 / 6)), ChiSquaredQuantile(5));
   }
 }
 
