@@ -16,10 +16,15 @@ Session::Session(ServerLink* link, LeaseBook* book, const WorkerOptions& options
 
 Session::~Session() { End(); }
 
+void Session::Report() {
+  has_news_ = true;
+  link_->InterruptSync();
+}
+
 void Session::StartDraining() {
   if (draining_.HasBeenNotified()) return;
   draining_.Notify();
-  link_->InterruptSync();
+  Report();
 }
 
 void Session::End() {
@@ -76,24 +81,18 @@ bool Session::Open() {
 }
 
 absl::Status Session::Exchange() {
-  if (draining_.HasBeenNotified() && !said_draining_) {
-    // A new exchange, so that the server looks at the reports: what is not listed any more goes back.
-    said_draining_ = true;
-    ++sequence_;
-  }
+  // A new exchange, so that the server looks at the reports: what is not listed any more goes back.
+  if (has_news_.exchange(false)) ++sequence_;
   v1::SyncWorkerSessionRequest request;
   request.set_name(session_->name());
   request.set_sequence(sequence_);
-  request.set_draining(said_draining_);
+  request.set_draining(draining_.HasBeenNotified());
   const std::vector<v1::LeaseReport> reports = book_->Reports();
   for (const v1::LeaseReport& report : reports) *request.add_reports() = report;
   absl::StatusOr<v1::SyncWorkerSessionResponse> response =
       link_->Sync(request, absl::Nanoseconds(TimeUtil::DurationToNanoseconds(
                                session_->sync_interval())),
-                  [this] {
-                    return ended_.HasBeenNotified() ||
-                           (draining_.HasBeenNotified() && !said_draining_);
-                  });
+                  [this] { return ended_.HasBeenNotified() || has_news_; });
   if (!response.ok()) return response.status();
   ++sequence_;
   book_->Confirm(reports);

@@ -1,6 +1,7 @@
 // The session with the coordinator: heartbeat, reports up, leases down, on a thread of its own.
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <thread>
 
@@ -20,6 +21,8 @@ class Session {
   Session(ServerLink* link, LeaseBook* book, const WorkerOptions& options);
   ~Session();
 
+  // Tells the server at once what has become of the leases.
+  void Report();
   // From now on no new leases; those that are not reported any more go back at once.
   void StartDraining();
   // Closes the session.
@@ -34,10 +37,10 @@ class Session {
   LeaseBook* const book_;
   const WorkerOptions options_;
   absl::Notification draining_, ended_;
+  std::atomic<bool> has_news_{false};  // that the server should hear at once
   // Of the thread:
   std::optional<v1::WorkerSession> session_;
   int64_t sequence_ = 1;
-  bool said_draining_ = false;
   bool refused_ = false;
   std::thread thread_;
 };

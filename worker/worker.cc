@@ -73,6 +73,7 @@ class Worker::Impl {
       } else {
         options_.log(lease->name() + " failed: " + std::string(result.status().message()));
         book_.Fail(lease->name(), std::string(result.status().message()));
+        session_.Report();
       }
     }
   }
