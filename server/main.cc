@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   sigaddset(&signals, SIGINT);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a full store, not the end
   spdlog::set_default_logger(spdlog::stderr_color_mt("lambert-server"));
   options.log = [](const std::string& line) { spdlog::info("{}", line); };
   return lambert::server::Run(options, listen, signals);

@@ -246,6 +246,25 @@ TEST_F(Service, ACancelledJobKeepsTheBestSoFar) {
       news.job_ended().latest_snapshot().payload_digest().sha256()));
 }
 
+TEST_F(Service, AFullStoreFailsTheJobAndKeepsItsLastSnapshot) {
+  AddWorker();
+  const Watched roomy = Watch(CreateJob(1'000'000).name());
+  ASSERT_GE(roomy.ended.latest_snapshot().version(), 2);
+  server::CoordinatorOptions options;  // room for one snapshot beside scene and patches, not for two
+  options.max_store_bytes = static_cast<int64_t>(ToGlb(MakeCornell(2)).size()) +
+                            roomy.ended.patch_set_digest().size_bytes() +
+                            static_cast<int64_t>(roomy.payload.size()) * 3 / 2;
+  Start(options);
+  AddWorker();
+  const Watched watched = Watch(CreateJob(1'000'000).name());
+  ASSERT_EQ(watched.ended.state(), v1::SolveJob::STATE_FAILED);
+  google::rpc::ErrorInfo info;
+  ASSERT_TRUE(watched.ended.error().details(0).UnpackTo(&info));
+  EXPECT_EQ(info.reason(), "STORE_FULL");
+  EXPECT_EQ(watched.ended.latest_snapshot().version(), 1);
+  EXPECT_TRUE(DecodeSolution(watched.payload).ok());
+}
+
 TEST_F(Service, AQueuedJobIsCancelledAtOnce) {
   server::CoordinatorOptions options;
   options.max_running_jobs = 1;
@@ -366,7 +385,7 @@ TEST_F(Service, ListsItsWorkers) {
   Watch(CreateJob().name());
   v1::ListWorkersResponse response;
   grpc::ClientContext context;
-  ASSERT_TRUE(v1::FarmService::NewStub(channel_)->ListWorkers(&context, {}, &response).ok());
+  ASSERT_TRUE(v1::FarmService::NewStub(channel())->ListWorkers(&context, {}, &response).ok());
   ASSERT_EQ(response.workers_size(), 1);
   EXPECT_EQ(response.workers(0).name(), "workers/worker-0");
   EXPECT_EQ(response.workers(0).slot_count(), 3);

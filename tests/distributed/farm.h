@@ -1,0 +1,76 @@
+// A farm of real programs on this machine: one lambert-server, any number of lambert-workers.
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <csignal>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/service/service_calls.h"
+#include "tests/service/temporary_folder.h"
+#include "tests/support/process.h"
+
+namespace lambert {
+
+class Farm : public ServiceCalls {
+ public:
+  // `max_file_bytes`: no file of the server may grow larger; 0: no limit.
+  explicit Farm(std::vector<std::string> server_arguments = {}, int64_t max_file_bytes = 0)
+      : server_arguments_(std::move(server_arguments)), max_file_bytes_(max_file_bytes) {
+    StartServer("127.0.0.1:0");
+  }
+
+  void AddWorker(int slots = 1) {
+    workers_.push_back(std::make_unique<Process>(std::vector<std::string>{
+        LAMBERT_WORKER, "--server", address_, "--slots", std::to_string(slots), "--name",
+        "worker-" + std::to_string(workers_.size())}));
+  }
+  Process& worker(int i) { return *workers_[i]; }
+  Process& server() { return *server_; }
+  const std::string& address() const { return address_; }
+
+  // As a crash of the machine does; the address stays.
+  void KillAndRestartServer() {
+    server_->Signal(SIGKILL);
+    server_->Wait();
+    StartServer(address_);
+  }
+  // Blocks until workers have finished units of the job: it is in the middle.
+  void WaitUntilUnderWay(const std::string& job, int passes = 0) {
+    grpc::ClientContext context;
+    v1::WatchSnapshotsRequest request;
+    request.set_parent(job);
+    auto reader = snapshots()->WatchSnapshots(&context, request);
+    v1::WatchSnapshotsResponse news;
+    while (reader->Read(&news)) {
+      if (news.progress().ray_count() > 0 && news.progress().pass() >= passes) break;
+    }
+    context.TryCancel();
+  }
+
+ private:
+  void StartServer(const std::string& listen) {
+    std::vector<std::string> command = {LAMBERT_SERVER, "--listen", listen};
+    command.insert(command.end(), server_arguments_.begin(), server_arguments_.end());
+    if (max_file_bytes_ > 0) {
+      const std::string limit = "--fsize=" + std::to_string(max_file_bytes_);
+      command.insert(command.begin(), {"/usr/bin/prlimit", limit});
+    }
+    server_ = std::make_unique<Process>(command);
+    const std::string announcement = "listening on ";
+    const size_t begin = server_->WaitForError(announcement);
+    const size_t end = server_->WaitForError("\n", begin);
+    address_ = server_->error().substr(begin, end - 1 - begin);
+    Connect(grpc::CreateChannel(address_, grpc::InsecureChannelCredentials()));
+  }
+
+  const std::vector<std::string> server_arguments_;
+  const int64_t max_file_bytes_;
+  std::string address_;
+  std::unique_ptr<Process> server_;
+  std::vector<std::unique_ptr<Process>> workers_;
+};
+
+}  // namespace lambert

@@ -1,0 +1,124 @@
+// However many workers there are and whatever becomes of them, the solution has the bytes of the loop
+// that runs in one thread without a network.
+#include <gtest/gtest.h>
+
+#include "local/local_service.h"
+#include "radiosity/patch/build_patches.h"
+#include "radiosity/scene/load_gltf.h"
+#include "radiosity/solve/plan.h"
+#include "radiosity/solve/solver.h"
+#include "tests/distributed/farm.h"
+
+namespace lambert {
+namespace {
+
+constexpr int kSquares = 4;                // 512 patches
+constexpr int64_t kRays = 3'000'000;       // about a second of one core
+
+const std::string& ExpectedBytes() {
+  static const std::string bytes = [] {
+    SolveOptions options;
+    options.shoot.method = Method::kAuto;
+    options.max_rays = kRays;
+    auto patches = std::make_shared<const PatchSet>(
+        *BuildPatches(*LoadGltf({"room.glb", ToGlb(MakeCornell(kSquares)), {}}), {}));
+    const Plan plan = MakePlan(*patches, options);
+    SerialExecutor executor(*Shooter::Create(patches, plan.options.shoot));
+    Solver solver(patches, plan.options, [] { return 0.0; });
+    while (solver.stop_reason() == StopReason::kNone) {
+      if (!solver.RunPass(executor, nullptr).ok()) break;
+    }
+    return EncodeSolution(*solver.MakeSnapshot().solution);
+  }();
+  return bytes;
+}
+
+void ExpectSameBytes(const ServiceCalls::Watched& watched) {
+  EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
+  EXPECT_EQ(watched.ended.state(), v1::SolveJob::STATE_SUCCEEDED)
+      << watched.ended.error().message();
+  EXPECT_TRUE(watched.payload == ExpectedBytes());
+}
+
+struct Crew {
+  int workers, slots;
+};
+
+class SameBytes : public testing::TestWithParam<Crew> {};
+
+TEST_P(SameBytes, WithAnyNumberOfWorkersAndSlots) {
+  Farm farm;
+  for (int i = 0; i < GetParam().workers; ++i) farm.AddWorker(GetParam().slots);
+  ExpectSameBytes(farm.Watch(farm.CreateJob(kRays, "", kSquares).name()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Crews, SameBytes,
+                         testing::Values(Crew{1, 1}, Crew{2, 1}, Crew{7, 1}, Crew{1, 2}, Crew{1, 3},
+                                         Crew{2, 4}),
+                         [](const auto& info) {
+                           return std::to_string(info.param.workers) + "Workers" +
+                                  std::to_string(info.param.slots) + "Slots";
+                         });
+
+TEST(SameBytesLocally, WithTheWholeServiceInThisProcess) {
+  for (LocalServiceOptions options : {LocalServiceOptions{1, 1}, LocalServiceOptions{2, 2}}) {
+    auto service = *LocalService::Start(options);
+    ServiceCalls calls;
+    calls.Connect(service->channel());
+    ExpectSameBytes(calls.Watch(calls.CreateJob(kRays, "", kSquares).name()));
+    calls.Connect(nullptr);
+  }
+}
+
+TEST(SameBytesInTrouble, WithAWorkerKilledInTheMiddle) {
+  Farm farm;
+  for (int i = 0; i < 3; ++i) farm.AddWorker();
+  const v1::SolveJob job = farm.CreateJob(kRays, "", kSquares);
+  farm.WaitUntilUnderWay(job.name());
+  farm.worker(0).Signal(SIGKILL);
+  ExpectSameBytes(farm.Watch(job.name()));
+}
+
+TEST(SameBytesInTrouble, WithAWorkerFrozenInTheMiddle) {
+  Farm farm;
+  for (int i = 0; i < 3; ++i) farm.AddWorker();
+  const v1::SolveJob job = farm.CreateJob(kRays, "", kSquares);
+  farm.WaitUntilUnderWay(job.name());
+  farm.worker(0).Signal(SIGSTOP);
+  ExpectSameBytes(farm.Watch(job.name()));
+}
+
+TEST(SameBytesInTrouble, WithAWorkerThatThawsAndSendsOldResults) {
+  Farm farm;
+  for (int i = 0; i < 2; ++i) farm.AddWorker();
+  const v1::SolveJob job = farm.CreateJob(kRays, "", kSquares);
+  farm.WaitUntilUnderWay(job.name());
+  farm.worker(0).Signal(SIGSTOP);
+  farm.WaitUntilUnderWay(job.name(), 4);
+  farm.worker(0).Signal(SIGCONT);
+  ExpectSameBytes(farm.Watch(job.name()));
+}
+
+TEST(SameBytesInTrouble, WithAWorkerThatLeavesAndOneThatComesLate) {
+  Farm farm;
+  farm.AddWorker();
+  const v1::SolveJob job = farm.CreateJob(kRays, "", kSquares);
+  farm.WaitUntilUnderWay(job.name());
+  farm.worker(0).Signal(SIGTERM);
+  EXPECT_EQ(farm.worker(0).Wait(), 0);
+  farm.AddWorker();
+  ExpectSameBytes(farm.Watch(job.name()));
+}
+
+TEST(SameBytesInTrouble, WithTheServerKilledAndStartedAgain) {
+  TemporaryFolder folder;
+  Farm farm({"--data", folder.path()});
+  for (int i = 0; i < 2; ++i) farm.AddWorker();
+  const v1::SolveJob job = farm.CreateJob(kRays, "", kSquares);
+  farm.WaitUntilUnderWay(job.name(), 3);
+  farm.KillAndRestartServer();
+  ExpectSameBytes(farm.Watch(job.name()));
+}
+
+}  // namespace
+}  // namespace lambert
