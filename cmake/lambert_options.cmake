@@ -32,6 +32,10 @@ function(lambert_test name)
   cmake_parse_arguments(TEST "" "" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE lambert_flags ${TEST_LIBS} GTest::gtest_main)
+  set(labels)  # an empty value would take the next word, TIMEOUT, for the label
+  if(TEST_LABELS)
+    set(labels LABELS "${TEST_LABELS}")
+  endif()
   gtest_discover_tests(${name} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 300)
+    PROPERTIES TIMEOUT 300 ${labels})
 endfunction()
