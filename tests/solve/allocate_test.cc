@@ -22,6 +22,12 @@ std::vector<Rgb> RandomFlux(int count, TestRandom& random) {
   return flux;
 }
 
+std::vector<UnsentFlux> Unsent(const std::vector<Rgb>& flux_lm) {
+  std::vector<UnsentFlux> unsent;
+  for (const Rgb& f : flux_lm) unsent.push_back({static_cast<int32_t>(unsent.size()), f});
+  return unsent;
+}
+
 bool IsPowerOfTwo(double x) {
   int exponent;
   return std::frexp(x, &exponent) == 0.5;
@@ -44,7 +50,7 @@ TEST(AllocateRays, GivesEveryEmitterItsShareOfTheRaysInTheMean) {
   const double flux_per_ray = 0.37;
   std::vector<double> mean(flux.size());
   for (int k = 0; k < kGrid; ++k) {
-    for (const Visit& v : AllocateRays(flux, flux_per_ray, (k + 0.5) / kGrid).visits) {
+    for (const Visit& v : AllocateRays(Unsent(flux), flux_per_ray, (k + 0.5) / kGrid).visits) {
       mean[v.emitter] += 1.0 * v.ray_count / kGrid;
     }
   }
@@ -62,7 +68,7 @@ TEST(AllocateRays, ShootsAllFluxOfEveryEmitterInTheMean) {
   const double flux_per_ray = 1.1;
   std::vector<Rgb> mean(flux.size());
   for (int k = 0; k < kGrid; ++k) {
-    const StepPlan plan = AllocateRays(flux, flux_per_ray, (k + 0.5) / kGrid);
+    const StepPlan plan = AllocateRays(Unsent(flux), flux_per_ray, (k + 0.5) / kGrid);
     for (const Visit& v : plan.visits) {
       for (int c = 0; c < 3; ++c) {
         mean[v.emitter][c] += static_cast<double>(v.quanta[c]) * plan.quantum_lm[c] / kGrid;
@@ -79,7 +85,7 @@ TEST(AllocateRays, CountsTheRaysOfItsVisitsWhichAreWhole) {
   TestRandom random(3);
   for (int k = 0; k < 100; ++k) {
     const std::vector<Rgb> flux = RandomFlux(40, random);
-    const StepPlan plan = AllocateRays(flux, random.Uniform(0.01, 3), random.Uniform());
+    const StepPlan plan = AllocateRays(Unsent(flux), random.Uniform(0.01, 3), random.Uniform());
     int64_t rays = 0;
     PatchIndex previous = -1;
     for (const Visit& v : plan.visits) {
@@ -100,7 +106,7 @@ TEST(AllocateRays, QuantaArePowersOfTwoAndUseTheirRoom) {
   for (double scale : {1e-30, 1e-3, 1.0, 1e12, 1e30, 1e100}) {
     std::vector<Rgb> flux = RandomFlux(30, random);
     for (Rgb& f : flux) f = f * Rgb{scale, scale * 1e-12, scale * 1e6};
-    const StepPlan plan = AllocateRays(flux, scale * 1e5, random.Uniform());
+    const StepPlan plan = AllocateRays(Unsent(flux), scale * 1e5, random.Uniform());
     ASSERT_GT(plan.rays, 0);
     const std::array<double, 3> total = TotalQuanta(plan);
     for (int c = 0; c < 3; ++c) {
@@ -112,7 +118,7 @@ TEST(AllocateRays, QuantaArePowersOfTwoAndUseTheirRoom) {
 }
 
 TEST(AllocateRays, AChannelWithoutFluxHasQuantumZero) {
-  const StepPlan plan = AllocateRays({{1, 0, 0}, {2, 0, 0}}, 0.5, 0.3);
+  const StepPlan plan = AllocateRays(Unsent({{1, 0, 0}, {2, 0, 0}}), 0.5, 0.3);
   EXPECT_EQ(plan.rays, 6);
   EXPECT_GT(plan.quantum_lm.r, 0);
   EXPECT_EQ(plan.quantum_lm.g, 0);
@@ -126,7 +132,7 @@ TEST(AllocateRays, AChannelWithoutFluxHasQuantumZero) {
 
 TEST(AllocateRays, OfNoFluxAreNone) {
   for (const std::vector<Rgb>& flux : {std::vector<Rgb>(), std::vector<Rgb>(5)}) {
-    const StepPlan plan = AllocateRays(flux, 1, 0.999);
+    const StepPlan plan = AllocateRays(Unsent(flux), 1, 0.999);
     EXPECT_EQ(plan.rays, 0);
     EXPECT_TRUE(plan.visits.empty());
     EXPECT_EQ(plan.quantum_lm, Rgb{});
@@ -142,7 +148,7 @@ TEST(AllocateRays, StaysFiniteAtTheEndsOfDoubles) {
     double total = 0;
     for (const Rgb& f : flux) total += Sum(f);
     for (double rays : {0.25, 1.0, 1e6, 1e12}) {
-      const StepPlan plan = AllocateRays(flux, std::max(total / rays, kLeast), 0.999);
+      const StepPlan plan = AllocateRays(Unsent(flux), std::max(total / rays, kLeast), 0.999);
       EXPECT_GE(plan.rays, 0);
       EXPECT_LE(plan.rays, static_cast<int64_t>(flux.size()) << 32);
       const std::array<double, 3> quanta = TotalQuanta(plan);
@@ -158,7 +164,7 @@ TEST(AllocateRays, StaysFiniteAtTheEndsOfDoubles) {
 TEST(CutIntoUnits, CoversTheRaysOfEveryVisitExactlyOnce) {
   TestRandom random(5);
   for (int64_t unit_rays : {int64_t{1}, int64_t{7}, int64_t{100}, int64_t{1} << 40}) {
-    const StepPlan plan = AllocateRays(RandomFlux(60, random), 0.05, 0.5);
+    const StepPlan plan = AllocateRays(Unsent(RandomFlux(60, random)), 0.05, 0.5);
     const std::vector<WorkUnit> units = CutIntoUnits(plan, 11, 12, 13, unit_rays);
     std::map<PatchIndex, uint32_t> next;
     std::map<PatchIndex, Visit> whole;

@@ -28,15 +28,19 @@ TEST(FluxLedger, StartsWithAllEmissionUnsentPatchesFirst) {
   scene.point_lights.push_back({"", {1, 1, 1}, {10, 20, 30}});
   const PatchSet patches = PatchesOf(scene);
   const FluxLedger ledger(patches);
-  ASSERT_EQ(ledger.unsent_lm().size(), static_cast<size_t>(patches.size()) + 1);
+  std::vector<UnsentFlux> emitting;
   Rgb sum;
   for (PatchIndex i = 0; i < patches.size(); ++i) {
-    EXPECT_EQ(ledger.unsent_lm()[i], patches.exitance_lm_per_m2[i] * patches.area_m2[i]);
     EXPECT_EQ(ledger.arrived_lm()[i], Rgb{});
-    sum = sum + ledger.unsent_lm()[i];
+    const Rgb flux_lm = patches.exitance_lm_per_m2[i] * patches.area_m2[i];
+    if (flux_lm != Rgb{}) emitting.push_back({i, flux_lm});
+    sum = sum + flux_lm;
   }
-  EXPECT_DOUBLE_EQ(ledger.unsent_lm().back().g, 4 * std::numbers::pi * 20);
-  sum = sum + ledger.unsent_lm().back();
+  ASSERT_EQ(ledger.unsent().size(), emitting.size() + 1);
+  EXPECT_TRUE(std::equal(emitting.begin(), emitting.end(), ledger.unsent().begin()));
+  EXPECT_EQ(ledger.unsent().back().emitter, patches.size());
+  EXPECT_DOUBLE_EQ(ledger.unsent().back().flux_lm.g, 4 * std::numbers::pi * 20);
+  sum = sum + ledger.unsent().back().flux_lm;
   EXPECT_NEAR(ledger.unsent_total_lm() / (sum.r + sum.g + sum.b), 1, 1e-14);
   EXPECT_NEAR(ledger.emitted_total_lm() / ledger.unsent_total_lm(), 1, 1e-14);
 }
@@ -49,16 +53,15 @@ TEST(FluxLedger, BooksAStepByHand) {
   StepPlan plan;
   plan.quantum_lm = {0.25, 0.25, 0.25};
   UnitResult result;
-  result.deposits.resize(patches.size());
   PatchIndex lit = 0;
   while (patches.reflectance[lit].r != 0.5) ++lit;
-  result.deposits[lit] = {2, 2, 2, 1};
+  result.deposits = {{2, 2, 2, 1, lit}};
   result.shot = {4, 4, 4};
   result.escaped = {2, 2, 2};
   ledger.Book(plan, result);
   EXPECT_EQ(ledger.arrived_lm()[lit], (Rgb{0.5, 0.5, 0.5}));
   EXPECT_EQ(ledger.hits()[lit], 1);
-  EXPECT_EQ(ledger.unsent_lm()[lit], (Rgb{0.25, 0.25, 0.25}));
+  EXPECT_EQ(ledger.unsent(), (std::vector<UnsentFlux>{{lit, {0.25, 0.25, 0.25}}}));
   EXPECT_DOUBLE_EQ(ledger.unsent_total_lm(), 0.75);
   const Ledger balance = ledger.Balance();
   EXPECT_DOUBLE_EQ(balance.absorbed.g, 0.25);
@@ -80,9 +83,8 @@ TEST(FluxLedger, BalancesAfterEveryStepInEveryChannel) {
     TestRandom random(1);
     const double emitted = ledger.emitted_total_lm();
     for (uint32_t step = 0; step < 40; ++step) {
-      const StepPlan plan = AllocateRays(ledger.unsent_lm(), emitted / 5000, random.Uniform());
+      const StepPlan plan = AllocateRays(ledger.unsent(), emitted / 5000, random.Uniform());
       UnitResult merged;
-      merged.deposits.resize(patches->size());
       for (const WorkUnit& unit : CutIntoUnits(plan, 1, 0, step, 1000)) {
         MergeResult(*shooter->Run(unit), merged);
       }

@@ -23,7 +23,7 @@ FluxLedger RandomPass(const PatchSet& patches, TestRandom& random) {
   UnitResult result;
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     result.deposits.push_back(
-        {random.Below(1 << 24), random.Below(1 << 24), random.Below(1 << 24), 1 + i});
+        {random.Below(1 << 24), random.Below(1 << 24), random.Below(1 << 24), 1 + i, i});
     const Deposit& d = result.deposits.back();
     result.shot = {result.shot[0] + d.r, result.shot[1] + d.g, result.shot[2] + d.b};
   }

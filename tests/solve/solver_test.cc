@@ -1,5 +1,7 @@
 #include "radiosity/solve/solver.h"
 
+#include <set>
+
 #include "radiosity/core/error.h"
 #include "tests/solve/run_solver.h"
 
@@ -19,6 +21,19 @@ TEST(Solver, TheSameSeedGivesTheSameBytesAndAnotherSeedOthers) {
     EXPECT_TRUE(a.SolutionBytes() == b.SolutionBytes());
     EXPECT_FALSE(a.SolutionBytes() == c.SolutionBytes());
   }
+}
+
+// The first step shoots floor(e + offset) rays, e with a fraction: each seed rounds by its own
+// offset.
+TEST(Solver, TheRoundingOfRayNumbersDependsOnTheSeed) {
+  std::set<int64_t> first_step_rays;
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    SolverRun run(Cornell(), Budget(Method::kPmcr, 1000, seed));
+    ASSERT_TRUE(run.Pass().ok());
+    first_step_rays.insert(run.steps[0].rays);
+  }
+  EXPECT_EQ(first_step_rays.size(), 2u);
+  EXPECT_EQ(*first_step_rays.rbegin() - *first_step_rays.begin(), 1);
 }
 
 TEST(Solver, RestoredAfterAnyPassContinuesToTheSameBytes) {
