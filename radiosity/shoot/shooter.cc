@@ -12,6 +12,7 @@
 
 #include "radiosity/core/error.h"
 #include "radiosity/pyramid/density.h"
+#include "radiosity/shoot/arrivals.h"
 #include "radiosity/shoot/density_table.h"
 #include "radiosity/shoot/emitter.h"
 #include "radiosity/trace/ray_scene.h"
@@ -44,7 +45,8 @@ double ThreadCpuSeconds() {
 // Rays of any emitters on their way to being traced and deposited together.
 class Flight {
  public:
-  Flight(const RayScene& scene, UnitResult& result) : scene_(scene), result_(result) {}
+  Flight(const RayScene& scene, Arrivals& arrivals, UnitResult& result)
+      : scene_(scene), arrivals_(arrivals), result_(result) {}
 
   RayBatch& batch() { return batch_; }
   float* cosine() { return cosine_; }
@@ -61,7 +63,7 @@ class Flight {
     constexpr int kAhead = 16;  // deposits are random accesses: fetch them early
     for (int k = 0; k < batch_.size; ++k) {
       const PatchIndex next = batch_.hit[std::min(k + kAhead, batch_.size - 1)];
-      if (next >= 0) __builtin_prefetch(&result_.deposits[next], 1);
+      if (next >= 0) arrivals_.Prefetch(next);
       Arrive(batch_.hit[k], flux_[0][k], flux_[1][k], flux_[2][k]);
     }
     result_.rays += batch_.size;
@@ -74,11 +76,7 @@ class Flight {
     result_.shot[1] += g;
     result_.shot[2] += b;
     if (hit >= 0) {
-      Deposit& deposit = result_.deposits[hit];
-      deposit.r += r;
-      deposit.g += g;
-      deposit.b += b;
-      ++deposit.hits;
+      arrivals_.Add(hit, r, g, b);
       return;
     }
     result_.escaped[0] += r;
@@ -87,6 +85,7 @@ class Flight {
   }
 
   const RayScene& scene_;
+  Arrivals& arrivals_;
   UnitResult& result_;
   RayBatch batch_;
   alignas(64) float cosine_[RayBatch::kSlots];
@@ -107,7 +106,8 @@ class EmbreeShooter : public Shooter {
       : patches_(std::move(patches)),
         options_(options),
         scene_(std::move(scene)),
-        emitters_(*patches_, *scene_) {
+        emitters_(*patches_, *scene_),
+        arrivals_(patches_->size()) {
     if (options_.method == Method::kPhs) {
       densities_ = std::make_unique<DensityTable>(*patches_, options_.pyramids);
     }
@@ -129,6 +129,7 @@ class EmbreeShooter : public Shooter {
   const ShootOptions options_;
   std::unique_ptr<RayScene> scene_;
   const Emitters emitters_;
+  mutable ArrivalsPool arrivals_;
   std::unique_ptr<DensityTable> densities_;
 };
 
@@ -154,8 +155,8 @@ absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
   const DenormalsFlushed flushed;
   const double start = ThreadCpuSeconds();
   UnitResult result;
-  result.deposits.resize(patches_->size());
-  auto flight = std::make_unique<Flight>(*scene_, result);
+  std::unique_ptr<Arrivals> arrivals = arrivals_.Borrow();
+  auto flight = std::make_unique<Flight>(*scene_, *arrivals, result);
   for (const Visit& visit : unit.visits) {
     const RandomStream stream{unit.seed, static_cast<uint32_t>(visit.emitter), unit.step,
                               unit.pass};
@@ -168,6 +169,8 @@ absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
     }
   }
   flight->Land();
+  result.deposits = arrivals->Take();
+  arrivals_.Return(std::move(arrivals));
   result.cpu_seconds = ThreadCpuSeconds() - start;
   return result;
 }

@@ -27,13 +27,11 @@ static_assert(sizeof(VisitBytes) == 40);
 
 struct ResultHeader {
   uint32_t magic = kResultMagic;
-  uint32_t patches = 0;
   uint32_t entries = 0;  // patches that were hit
-  uint32_t reserved = 0;
   int64_t shot[3], escaped[3];
   int64_t rays = 0;
 };
-static_assert(sizeof(ResultHeader) == 72);
+static_assert(sizeof(ResultHeader) == 64);
 
 struct DepositBytes {
   uint32_t patch, hits;
@@ -50,11 +48,23 @@ void Add(const Quanta& from, Quanta& into) {
   for (int c = 0; c < 3; ++c) into[c] += from[c];
 }
 
-void AddDeposit(const Deposit& from, Deposit& into) {
-  into.r += from.r;
-  into.g += from.g;
-  into.b += from.b;
-  into.hits += from.hits;
+// Two lists in the order of patches as one.
+std::vector<Deposit> Merge(const std::vector<Deposit>& a, const std::vector<Deposit>& b) {
+  std::vector<Deposit> merged;
+  merged.reserve(a.size() + b.size());
+  auto x = a.begin(), y = b.begin();
+  while (x != a.end() && y != b.end()) {
+    if (x->patch != y->patch) {
+      merged.push_back(x->patch < y->patch ? *x++ : *y++);
+      continue;
+    }
+    merged.push_back({x->r + y->r, x->g + y->g, x->b + y->b, x->hits + y->hits, x->patch});
+    ++x;
+    ++y;
+  }
+  merged.insert(merged.end(), x, a.end());
+  merged.insert(merged.end(), y, b.end());
+  return merged;
 }
 
 }  // namespace
@@ -66,8 +76,7 @@ int64_t WorkUnit::RayCount() const {
 }
 
 void MergeResult(const UnitResult& from, UnitResult& into) {
-  if (into.deposits.empty()) into.deposits.resize(from.deposits.size());
-  for (size_t i = 0; i < from.deposits.size(); ++i) AddDeposit(from.deposits[i], into.deposits[i]);
+  into.deposits = Merge(from.deposits, into.deposits);
   Add(from.shot, into.shot);
   Add(from.escaped, into.escaped);
   into.rays += from.rays;
@@ -84,12 +93,10 @@ absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result) {
   __int128 arrived[3] = {0, 0, 0};
   __int128 hits = 0;
   for (const Deposit& deposit : result.deposits) {
-    if (deposit.r < 0 || deposit.g < 0 || deposit.b < 0 || deposit.hits < 0) {
+    if (deposit.r < 0 || deposit.g < 0 || deposit.b < 0) {
       return Corrupt("unit result", "a deposit is negative");
     }
-    if (deposit.hits == 0 && (deposit.r > 0 || deposit.g > 0 || deposit.b > 0)) {
-      return Corrupt("unit result", "flux arrived without a ray");
-    }
+    if (deposit.hits <= 0) return Corrupt("unit result", "flux arrived without a ray");
     arrived[0] += deposit.r;
     arrived[1] += deposit.g;
     arrived[2] += deposit.b;
@@ -146,19 +153,14 @@ absl::StatusOr<WorkUnit> DecodeUnit(const std::string& bytes) {
 std::string EncodeUnitResult(const UnitResult& result) {
   ByteWriter writer;
   ResultHeader header;
-  header.patches = static_cast<uint32_t>(result.deposits.size());
-  header.entries = static_cast<uint32_t>(
-      std::count_if(result.deposits.begin(), result.deposits.end(),
-                    [](const Deposit& d) { return d.hits != 0; }));
+  header.entries = static_cast<uint32_t>(result.deposits.size());
   std::copy(result.shot.begin(), result.shot.end(), header.shot);
   std::copy(result.escaped.begin(), result.escaped.end(), header.escaped);
   header.rays = result.rays;
   writer.Put(header);
-  for (size_t i = 0; i < result.deposits.size(); ++i) {
-    const Deposit& d = result.deposits[i];
-    if (d.hits == 0) continue;
+  for (const Deposit& d : result.deposits) {
     writer.Put(DepositBytes{
-        static_cast<uint32_t>(i), static_cast<uint32_t>(d.hits), {d.r, d.g, d.b}});
+        static_cast<uint32_t>(d.patch), static_cast<uint32_t>(d.hits), {d.r, d.g, d.b}});
   }
   return writer.Take();
 }
@@ -167,13 +169,11 @@ absl::StatusOr<UnitResult> DecodeUnitResult(const std::string& bytes, PatchIndex
   ByteReader reader(bytes);
   ResultHeader header;
   if (!reader.Get(&header) || header.magic != kResultMagic ||
-      header.patches != static_cast<uint32_t>(patch_count) ||
       reader.remaining() != header.entries * sizeof(DepositBytes)) {
-    return Corrupt("unit result", "the bytes are not a result for " +
-                                      std::to_string(patch_count) + " patches");
+    return Corrupt("unit result", "the bytes are not a unit's result");
   }
   UnitResult result;
-  result.deposits.resize(patch_count);
+  result.deposits.reserve(header.entries);
   std::copy(std::begin(header.shot), std::end(header.shot), result.shot.begin());
   std::copy(std::begin(header.escaped), std::end(header.escaped), result.escaped.begin());
   result.rays = header.rays;
@@ -181,11 +181,12 @@ absl::StatusOr<UnitResult> DecodeUnitResult(const std::string& bytes, PatchIndex
   for (uint32_t k = 0; k < header.entries; ++k) {
     DepositBytes d;
     reader.Get(&d);
-    if (d.patch <= previous || d.patch >= header.patches || d.hits == 0) {
+    if (d.patch <= previous || d.patch >= static_cast<uint32_t>(patch_count) || d.hits == 0) {
       return Corrupt("unit result", "its patches are out of order or out of range");
     }
     previous = d.patch;
-    result.deposits[d.patch] = {d.quanta[0], d.quanta[1], d.quanta[2], d.hits};
+    result.deposits.push_back({d.quanta[0], d.quanta[1], d.quanta[2], d.hits,
+                               static_cast<PatchIndex>(d.patch)});
   }
   return result;
 }

@@ -40,16 +40,18 @@ struct WorkUnit {
   int64_t RayCount() const;
 };
 
-// What arrived at one patch. 32 bytes, so that a deposit touches one cache line.
-struct alignas(32) Deposit {
-  int64_t r = 0, g = 0, b = 0;
-  int64_t hits = 0;
+// What arrived at one patch.
+struct Deposit {
+  int64_t r = 0, g = 0, b = 0;  // quanta
+  int64_t hits = 0;             // rays, > 0
+  PatchIndex patch = 0;
   bool operator==(const Deposit&) const = default;
 };
 
 // Result of one unit, or of any number of merged units.
 struct UnitResult {
-  std::vector<Deposit> deposits;  // by patch
+  // Of the patches that were hit, in order: the last rays of a pass hit few of many patches.
+  std::vector<Deposit> deposits;
   Quanta shot{};                  // = sum of deposits + escaped, each channel
   Quanta escaped{};               // left the scene
   int64_t rays = 0;
@@ -57,7 +59,7 @@ struct UnitResult {
   bool operator==(const UnitResult&) const = default;
 };
 
-// Adds `from` to `into`. Requires: the same number of patches (or `into` without any).
+// Adds `from` to `into`.
 void MergeResult(const UnitResult& from, UnitResult& into);
 
 // OK if shot = deposited + escaped in each channel, and rays = hits + misses is possible for

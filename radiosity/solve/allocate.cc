@@ -24,12 +24,12 @@ double Quantum(double total_lm) {
 
 }  // namespace
 
-StepPlan AllocateRays(const std::vector<Rgb>& unsent_lm, double flux_per_ray_lm, double offset) {
+StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray_lm,
+                      double offset) {
   std::vector<Share> shares;
   Rgb total;
   double cumulative = offset, whole = 0;
-  for (size_t i = 0; i < unsent_lm.size(); ++i) {
-    const Rgb& flux = unsent_lm[i];
+  for (const auto& [emitter, flux] : unsent) {
     const double scalar = flux.r + flux.g + flux.b;
     if (!(scalar > 0)) continue;
     const double expected = std::min(scalar / flux_per_ray_lm, kMaxVisitRays);
@@ -39,7 +39,7 @@ StepPlan AllocateRays(const std::vector<Rgb>& unsent_lm, double flux_per_ray_lm,
     whole = until;
     if (rays < 1) continue;
     const Rgb sent = expected < 1 ? flux / expected : flux;
-    shares.push_back({static_cast<int32_t>(i), static_cast<uint32_t>(rays), sent});
+    shares.push_back({emitter, static_cast<uint32_t>(rays), sent});
     total = total + sent;
   }
   StepPlan plan;

@@ -10,6 +10,13 @@
 
 namespace lambert {
 
+// Flux that an emitter has yet to send.
+struct UnsentFlux {
+  int32_t emitter = 0;  // a patch, or patches + l for point light l
+  Rgb flux_lm;
+  bool operator==(const UnsentFlux&) const = default;
+};
+
 // The visits of one step. Flux in lumen = quanta * quantum_lm, per channel.
 struct StepPlan {
   std::vector<Visit> visits;  // whole visits: ray_begin 0, ray_end ray_count
@@ -22,7 +29,7 @@ struct StepPlan {
 // emitter that expects less than one ray sends its flux / e_i when it gets one: Russian roulette,
 // no flux is lost in expectation. All flux that is shot is at most 2^kMaxQuantaBits quanta.
 // Requires: finite flux >= 0, flux_per_ray > 0.
-StepPlan AllocateRays(const std::vector<Rgb>& unsent_lm, double flux_per_ray_lm, double offset);
+StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray_lm, double offset);
 
 // Cuts the visits into units of about `unit_rays` rays; long visits are divided. The results of the
 // units, merged, do not depend on how they were cut. Requires: unit_rays >= 1.

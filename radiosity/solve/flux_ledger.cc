@@ -1,6 +1,5 @@
 #include "radiosity/solve/flux_ledger.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace lambert {
@@ -14,35 +13,39 @@ void CompensatedSum::Add(double value) {
 FluxLedger::FluxLedger(const PatchSet& patches)
     : patches_(patches),
       emitted_(EmittedFlux(patches)),
-      unsent_lm_(patches.size() + patches.point_lights.size()),
       arrived_lm_(patches.size()),
       hits_(patches.size()) {
   for (PatchIndex i = 0; i < patches.size(); ++i) {
-    unsent_lm_[i] = patches.exitance_lm_per_m2[i] * patches.area_m2[i];
+    AddUnsent(i, patches.exitance_lm_per_m2[i] * patches.area_m2[i]);
   }
   for (size_t l = 0; l < patches.point_lights.size(); ++l) {
-    unsent_lm_[patches.size() + l] = patches.point_lights[l].intensity_cd * (4 * M_PI);
+    AddUnsent(patches.size() + static_cast<int32_t>(l),
+              patches.point_lights[l].intensity_cd * (4 * M_PI));
   }
-  for (const Rgb& flux : unsent_lm_) unsent_ = unsent_ + flux;
+}
+
+void FluxLedger::AddUnsent(int32_t emitter, Rgb flux_lm) {
+  if (flux_lm == Rgb{}) return;
+  unsent_.push_back({emitter, flux_lm});
+  unsent_sum_ = unsent_sum_ + flux_lm;
 }
 
 void FluxLedger::Book(const StepPlan& plan, const UnitResult& result) {
   const Rgb quantum = plan.quantum_lm;
-  const Rgb unsent_before = unsent_;
-  std::fill(unsent_lm_.begin(), unsent_lm_.end(), Rgb{});
-  unsent_ = {};
+  const Rgb unsent_before = unsent_sum_;
+  unsent_.clear();
+  unsent_sum_ = {};
   Rgb absorbed;
-  for (PatchIndex i = 0; i < patches_.size(); ++i) {
-    const Deposit& deposit = result.deposits[i];
-    if (deposit.hits == 0) continue;
+  for (const Deposit& deposit : result.deposits) {
+    const PatchIndex i = deposit.patch;
     hits_[i] += deposit.hits;
     const Rgb arrived{static_cast<double>(deposit.r) * quantum.r,
                       static_cast<double>(deposit.g) * quantum.g,
                       static_cast<double>(deposit.b) * quantum.b};
     arrived_lm_[i] = arrived_lm_[i] + arrived;
-    unsent_lm_[i] = patches_.reflectance[i] * arrived;
-    unsent_ = unsent_ + unsent_lm_[i];
-    absorbed = absorbed + (arrived - unsent_lm_[i]);
+    const Rgb reflected = patches_.reflectance[i] * arrived;
+    absorbed = absorbed + (arrived - reflected);
+    AddUnsent(i, reflected);
   }
   for (int c = 0; c < 3; ++c) {
     absorbed_[c].Add(absorbed[c]);
@@ -56,7 +59,7 @@ void FluxLedger::Book(const StepPlan& plan, const UnitResult& result) {
 Ledger FluxLedger::Balance() const {
   Ledger ledger;
   ledger.emitted = emitted_;
-  ledger.unsent = unsent_;
+  ledger.unsent = unsent_sum_;
   for (int c = 0; c < 3; ++c) {
     ledger.absorbed[c] = absorbed_[c].value();
     ledger.escaped[c] = escaped_[c].value();

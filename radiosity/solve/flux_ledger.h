@@ -26,9 +26,10 @@ class FluxLedger {
   // All emitters' emission is unsent: patches first, then point lights.
   explicit FluxLedger(const PatchSet& patches);
 
-  const std::vector<Rgb>& unsent_lm() const { return unsent_lm_; }
+  // Emitters with unsent flux, in order.
+  const std::vector<UnsentFlux>& unsent() const { return unsent_; }
   // Sum over emitters and channels.
-  double unsent_total_lm() const { return unsent_.r + unsent_.g + unsent_.b; }
+  double unsent_total_lm() const { return unsent_sum_.r + unsent_sum_.g + unsent_sum_.b; }
   double emitted_total_lm() const { return emitted_.r + emitted_.g + emitted_.b; }
 
   // Books a step: all that was unsent has been shot as `plan` says and arrived as `result` says;
@@ -41,10 +42,12 @@ class FluxLedger {
   Ledger Balance() const;
 
  private:
+  void AddUnsent(int32_t emitter, Rgb flux_lm);
+
   const PatchSet& patches_;
   Rgb emitted_;
-  std::vector<Rgb> unsent_lm_;
-  Rgb unsent_;  // its sum
+  std::vector<UnsentFlux> unsent_;
+  Rgb unsent_sum_;
   std::vector<Rgb> arrived_lm_;
   std::vector<int64_t> hits_;
   CompensatedSum absorbed_[3], escaped_[3], residual_[3];

@@ -142,7 +142,7 @@ absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_
   const RandomStream stream{options.seed, 0, static_cast<uint32_t>(step),
                             static_cast<uint32_t>(at.next_pass)};
   const double offset = RandomNumbers(stream, 0, RandomPurpose::kPatchOffset)[0];
-  const StepPlan plan = AllocateRays(ledger.unsent_lm(), flux_per_ray, offset);
+  const StepPlan plan = AllocateRays(ledger.unsent(), flux_per_ray, offset);
   UnitResult result;
   if (plan.rays > 0) {
     absl::StatusOr<UnitResult> ran = executor.RunStep(
@@ -150,8 +150,6 @@ absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_
                      static_cast<uint32_t>(step), UnitRays(plan.rays, patches->size())));
     if (!ran.ok()) return ran.status();
     result = *std::move(ran);
-  } else {
-    result.deposits.resize(patches->size());
   }
   ledger.Book(plan, result);
   at.rays += result.rays;

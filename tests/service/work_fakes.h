@@ -42,7 +42,8 @@ inline std::vector<WorkUnit> MakeUnits(int count) {
   std::vector<WorkUnit> units(count);
   for (int i = 0; i < count; ++i) {
     units[i].seed = 1;
-    units[i].visits.push_back({0, kFakeRays * count, kFakeRays * i, kFakeRays * (i + 1), {7, 7, 7}});
+    units[i].visits.push_back(
+        {0, kFakeRays * count, kFakeRays * i, kFakeRays * (i + 1), {7, 7, 7}});
   }
   return units;
 }
@@ -54,7 +55,7 @@ inline WorkSetup MakeSetup(const std::string& job) {
 // A result of any of the units; `hits` tells results apart.
 inline UnitResult MakeResult(int64_t hits = 4) {
   UnitResult result;
-  result.deposits = {{5, 5, 5, hits}, {1, 1, 1, 1}};
+  result.deposits = {{5, 5, 5, hits, 0}, {1, 1, 1, 1, 1}};
   result.shot = {7, 7, 7};
   result.escaped = {1, 1, 1};
   result.rays = kFakeRays;
@@ -64,8 +65,9 @@ inline UnitResult MakeResult(int64_t hits = 4) {
 inline Submission MakeSubmission(const GrantedLease& lease, const UnitResult& result,
                                  double cpu_seconds = 0.01) {
   std::string bytes = EncodeUnitResult(result);
-  return {lease.name,  lease.step->setup().job, lease.step->number(), lease.unit,
-          Sha256Hex(bytes), cpu_seconds,        bytes};
+  return {lease.name, lease.step->setup().job, lease.step->number(),
+          lease.unit, Sha256Hex(bytes),        cpu_seconds,
+          bytes};
 }
 
 // Talks to a table as a worker does.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "radiosity/shoot/shooter.h"
+#include "tests/support/deposits.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
@@ -69,8 +70,8 @@ std::vector<SampleMean> Deposits(const ShootOptions& options, PatchIndex emitter
   for (uint64_t seed = 0; seed < 300; ++seed) {
     const UnitResult result =
         *shooter->Run({seed, 0, 0, {{emitter, rays, 0, rays, {int64_t{1} << 40, 0, 0}}}});
-    for (size_t i = 0; i < deposits.size(); ++i) {
-      deposits[i].Add(static_cast<double>(result.deposits[i].r));
+    for (const Deposit& d : ByPatch(result, Patches()->size())) {
+      deposits[d.patch].Add(static_cast<double>(d.r));
     }
   }
   return deposits;
@@ -109,9 +110,9 @@ TEST(PointLightFlux, FromTheCentreOfACubeReachesItsSixFacesAlike) {
     const UnitResult result = *shooter->Run(unit);
     EXPECT_EQ(result.escaped, Quanta{});
     std::vector<int64_t> faces(6);
-    for (PatchIndex i = 0; i < patches->size(); ++i) {
-      EXPECT_EQ(result.deposits[i].r, result.deposits[i].hits) << "each ray carries one quantum";
-      faces[patches->source[i].primitive] += result.deposits[i].hits;
+    for (const Deposit& d : result.deposits) {
+      EXPECT_EQ(d.r, d.hits) << "each ray carries one quantum";
+      faces[patches->source[d.patch].primitive] += d.hits;
     }
     EXPECT_LT(ChiSquared(faces, std::vector<double>(6, 1.0 / 6)), ChiSquaredQuantile(5));
   }

@@ -12,9 +12,10 @@ constexpr PatchIndex kPatches = 6;
 
 UnitResult RandomResult(TestRandom& random) {
   UnitResult result;
-  result.deposits.resize(kPatches);
-  for (Deposit& d : result.deposits) {
-    d = {random.Below(1 << 30), random.Below(1 << 30), random.Below(1 << 30), random.Below(100)};
+  for (PatchIndex patch = 0; patch < kPatches; ++patch) {
+    if (random.Below(3) == 0) continue;
+    result.deposits.push_back({random.Below(1 << 30), random.Below(1 << 30), random.Below(1 << 30),
+                               1 + random.Below(100), patch});
   }
   for (int c = 0; c < 3; ++c) {
     result.shot[c] = random.Below(1 << 30);
@@ -42,13 +43,13 @@ TEST(MergeResult, IsCommutativeAndAssociative) {
 
 TEST(MergeResult, AddsEveryField) {
   UnitResult a;
-  a.deposits = {{1, 2, 3, 4}, {5, 6, 7, 8}};
+  a.deposits = {{1, 2, 3, 4, 0}, {5, 6, 7, 8, 3}};
   a.shot = {10, 20, 30};
   a.escaped = {1, 2, 3};
   a.rays = 12;
   a.cpu_seconds = 0.5;
   const UnitResult twice = Merged(a, a);
-  EXPECT_EQ(twice.deposits[1], (Deposit{10, 12, 14, 16}));
+  EXPECT_EQ(twice.deposits[1], (Deposit{10, 12, 14, 16, 3}));
   EXPECT_EQ(twice.shot, (Quanta{20, 40, 60}));
   EXPECT_EQ(twice.escaped, (Quanta{2, 4, 6}));
   EXPECT_EQ(twice.rays, 24);
@@ -76,7 +77,7 @@ struct Booked {
 Booked Balanced() {
   Booked booked;
   booked.unit.visits = {{0, 8, 0, 8, {80, 160, 0}}};
-  booked.result.deposits = {{}, {20, 40, 0, 2}, {}, {30, 60, 0, 3}};
+  booked.result.deposits = {{20, 40, 0, 2, 1}, {30, 60, 0, 3, 3}};
   booked.result.shot = {80, 160, 0};
   booked.result.escaped = {30, 60, 0};
   booked.result.rays = 8;
@@ -100,40 +101,41 @@ void ExpectRefused(const char* what, Forge forge) {
 }
 
 TEST(CheckLedger, RefusesEachKindOfForgery) {
-  ExpectRefused("one quantum more", [](UnitResult& r) { ++r.deposits[1].r; });
-  ExpectRefused("one quantum less", [](UnitResult& r) { --r.deposits[3].g; });
-  ExpectRefused("a quantum in a dark channel", [](UnitResult& r) { ++r.deposits[3].b; });
+  ExpectRefused("one quantum more", [](UnitResult& r) { ++r.deposits[0].r; });
+  ExpectRefused("one quantum less", [](UnitResult& r) { --r.deposits[1].g; });
+  ExpectRefused("a quantum in a dark channel", [](UnitResult& r) { ++r.deposits[1].b; });
   ExpectRefused("more shot", [](UnitResult& r) { ++r.shot[1]; });
   ExpectRefused("more escaped", [](UnitResult& r) { ++r.escaped[0]; });
   ExpectRefused("fewer rays", [](UnitResult& r) { --r.rays; });
   ExpectRefused("more rays", [](UnitResult& r) { ++r.rays; });
-  ExpectRefused("more hits than rays", [](UnitResult& r) { r.deposits[1].hits += 4; });
+  ExpectRefused("more hits than rays", [](UnitResult& r) { r.deposits[0].hits += 4; });
   ExpectRefused("flux without a hit", [](UnitResult& r) {
-    r.deposits[0] = {5, 5, 0, 0};
-    r.deposits[1].r -= 5;
-    r.deposits[1].g -= 5;
+    r.deposits.push_back({5, 5, 0, 0, 4});
+    r.deposits[0].r -= 5;
+    r.deposits[0].g -= 5;
   });
   ExpectRefused("flux that escaped although every ray arrived",
-                [](UnitResult& r) { r.deposits[1].hits += 3; });
+                [](UnitResult& r) { r.deposits[0].hits += 3; });
   ExpectRefused("a negative deposit that another makes up for", [](UnitResult& r) {
-    r.deposits[1].r -= 1000;
-    r.deposits[3].r += 1000;
+    r.deposits[0].r -= 1000;
+    r.deposits[1].r += 1000;
   });
   ExpectRefused("negative hits that others make up for", [](UnitResult& r) {
-    r.deposits[1].hits -= 10;
-    r.deposits[3].hits += 10;
+    r.deposits[0].hits -= 10;
+    r.deposits[1].hits += 10;
   });
   ExpectRefused("a negative escape that a deposit makes up for", [](UnitResult& r) {
     r.escaped[0] -= 1000;
-    r.deposits[3].r += 1000;
+    r.deposits[1].r += 1000;
   });
 }
 
 TEST(CheckLedger, RefusesSumsThatOverflowToTheRightValue) {
   // Four times 2^62 is 0 modulo 2^64.
   ExpectRefused("overflow", [](UnitResult& r) {
+    r.deposits.push_back({0, 0, 0, 1, 4});
+    r.deposits.push_back({0, 0, 0, 1, 5});
     for (Deposit& d : r.deposits) d.r += int64_t{1} << 62;
-    r.deposits[0].hits = r.deposits[2].hits = 1;
   });
 }
 
