@@ -9,7 +9,8 @@
 
 namespace lambert {
 
-static_assert(std::endian::native == std::endian::little, "values are copied as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "values are copied as they lie in memory");
 
 // Appends values to a string.
 class ByteWriter {

@@ -7,7 +7,7 @@ namespace lambert {
 
 struct Transform {
   Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // columns of the linear part
-  Vec3 translation;                          // metres
+  Vec3 translation;                         // metres
 
   Vec3 Vector(Vec3 v) const { return x * v.x + y * v.y + z * v.z; }
   Vec3 Point(Vec3 p) const { return Vector(p) + translation; }

@@ -40,8 +40,8 @@ std::vector<uint32_t> PyramidRays(const std::vector<float>& densities, uint32_t 
     const uint64_t until =
         p + 1 == densities.size()
             ? ray_count
-            : std::min<uint64_t>(ray_count, static_cast<uint64_t>(std::floor(
-                                                cumulative / sum * ray_count + offset)));
+            : std::min<uint64_t>(ray_count, static_cast<uint64_t>(
+                                                std::floor(cumulative / sum * ray_count + offset)));
     rays[p] = static_cast<uint32_t>(until - before);
     before = until;
   }

@@ -17,9 +17,9 @@ std::vector<float> PyramidDensities(const Hemisphere& hemisphere,
                                     const std::vector<int32_t>& counts, double alpha1,
                                     double alpha2);
 
-// Rays of each pyramid: r_ip = density_ip r_i, rounded systematically, never away: the fractions are
-// carried from pyramid to pyramid starting at `offset` in [0, 1), so that E[r_ip] is exact and the
-// sum is exactly `ray_count`.
+// Rays of each pyramid: r_ip = density_ip r_i, rounded systematically, never away: the fractions
+// are carried from pyramid to pyramid starting at `offset` in [0, 1), so that E[r_ip] is exact and
+// the sum is exactly `ray_count`.
 std::vector<uint32_t> PyramidRays(const std::vector<float>& densities, uint32_t ray_count,
                                   double offset);
 

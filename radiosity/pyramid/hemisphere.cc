@@ -76,8 +76,8 @@ int Hemisphere::Locate(Vec3 d) const {
 }
 
 bool Hemisphere::HoldsBall(int p, Vec3 center, double radius) const {
-  const double margin = radius + 1e-9 * (radius + std::abs(center.z) + std::abs(center.x) +
-                                         std::abs(center.y));
+  const double margin =
+      radius + 1e-9 * (radius + std::abs(center.z) + std::abs(center.x) + std::abs(center.y));
   for (const Vec3& side : sides_[p].plane) {
     if (Dot(side, center) < margin) return false;
   }

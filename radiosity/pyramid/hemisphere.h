@@ -19,8 +19,8 @@ class Hemisphere {
   int size() const { return static_cast<int>(pyramids_.size()); }
   const SphericalTriangle& pyramid(int p) const { return pyramids_[p]; }
 
-  // The pyramid that holds a direction (of any length > 0), or -1 below the horizon. Every direction
-  // above the horizon is in exactly one.
+  // The pyramid that holds a direction (of any length > 0), or -1 below the horizon. Every
+  // direction above the horizon is in exactly one.
   int Locate(Vec3 direction) const;
 
   // True if the ball around `center` is wholly inside pyramid p, with a margin for rounding.
@@ -34,10 +34,10 @@ class Hemisphere {
   void Divide(Vec3 a, Vec3 b, Vec3 c, int depth);
 
   int initial_, split_, depth_;
-  std::vector<Vec3> horizon_;                // where the initial triangles meet it
+  std::vector<Vec3> horizon_;                     // where the initial triangles meet it
   std::vector<std::vector<Division>> divisions_;  // by level, then by triangle of that level
   std::vector<SphericalTriangle> pyramids_;
-  std::vector<Division> sides_;              // inward unit normals of each pyramid's sides
+  std::vector<Division> sides_;  // inward unit normals of each pyramid's sides
 };
 
 }  // namespace lambert

@@ -36,10 +36,13 @@ double HighestOnArc(Vec3 p, Vec3 q) {
 SineCosine SinCos(double x) {
   // Taylor series of an eighth of the angle, doubled three times.
   const double t = x * 0.125, t2 = t * t;
-  double s = t * (1 + t2 * (-1.0 / 6 + t2 * (1.0 / 120 + t2 * (-1.0 / 5040 +
-             t2 * (1.0 / 362880 - t2 / 39916800)))));
-  double c = 1 + t2 * (-0.5 + t2 * (1.0 / 24 + t2 * (-1.0 / 720 + t2 * (1.0 / 40320 -
-             t2 * (1.0 / 3628800 - t2 / 479001600)))));
+  double s =
+      t * (1 + t2 * (-1.0 / 6 +
+                     t2 * (1.0 / 120 + t2 * (-1.0 / 5040 + t2 * (1.0 / 362880 - t2 / 39916800)))));
+  double c =
+      1 + t2 * (-0.5 +
+                t2 * (1.0 / 24 + t2 * (-1.0 / 720 + t2 * (1.0 / 40320 -
+                                                          t2 * (1.0 / 3628800 - t2 / 479001600)))));
   for (int doubling = 0; doubling < 3; ++doubling) {
     const double sine = 2 * s * c;
     c = (c - s) * (c + s);
@@ -59,9 +62,9 @@ SphericalTriangle::SphericalTriangle(Vec3 a, Vec3 b, Vec3 c) : a_(a), b_(b), c_(
       (LambertEdge(a, b) + LambertEdge(b, c) + LambertEdge(c, a)) / (2 * std::numbers::pi);
   const bool holds_pole = Cross(a, b).z >= 0 && Cross(b, c).z >= 0 && Cross(c, a).z >= 0;
   max_cosine_ =
-      holds_pole ? 1.0
-                 : std::min(1.0, std::max({HighestOnArc(a, b), HighestOnArc(b, c),
-                                           HighestOnArc(c, a)}));
+      holds_pole
+          ? 1.0
+          : std::min(1.0, std::max({HighestOnArc(a, b), HighestOnArc(b, c), HighestOnArc(c, a)}));
 }
 
 Vec3 SphericalTriangle::SampleSolidAngle(double xi1, double xi2) const {

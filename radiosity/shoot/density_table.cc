@@ -19,8 +19,7 @@ int64_t MinRaysForDensities(const PatchSet& patches, const PyramidOptions& optio
   // densities also serve the passes to come, which shoot about twice as many rays again.
   constexpr double kCountNsPerPatch = 11, kRayNs = 250, kShareOfTime = 0.1, kVisitsServed = 3;
   const double pyramids = options.initial * std::pow(options.split, options.depth);
-  const double rays =
-      kCountNsPerPatch * patches.size() / (kRayNs * kShareOfTime * kVisitsServed);
+  const double rays = kCountNsPerPatch * patches.size() / (kRayNs * kShareOfTime * kVisitsServed);
   return std::llround(std::max(pyramids, rays));
 }
 

@@ -42,12 +42,12 @@ inline Disk ConcentricDisk(float u, float v) {
 }
 
 inline void PutOrigin(const EmitterFrame& f, Point2 point, RayBatch& batch, int slot) {
-  batch.origin_x[slot] = f.corner[0] + point.b1 * f.edge1[0] + point.b2 * f.edge2[0] +
-                         kOriginOffset * f.z[0];
-  batch.origin_y[slot] = f.corner[1] + point.b1 * f.edge1[1] + point.b2 * f.edge2[1] +
-                         kOriginOffset * f.z[1];
-  batch.origin_z[slot] = f.corner[2] + point.b1 * f.edge1[2] + point.b2 * f.edge2[2] +
-                         kOriginOffset * f.z[2];
+  batch.origin_x[slot] =
+      f.corner[0] + point.b1 * f.edge1[0] + point.b2 * f.edge2[0] + kOriginOffset * f.z[0];
+  batch.origin_y[slot] =
+      f.corner[1] + point.b1 * f.edge1[1] + point.b2 * f.edge2[1] + kOriginOffset * f.z[1];
+  batch.origin_z[slot] =
+      f.corner[2] + point.b1 * f.edge1[2] + point.b2 * f.edge2[2] + kOriginOffset * f.z[2];
 }
 
 inline void PutDirection(const EmitterFrame& f, float x, float y, float z, RayBatch& batch,
@@ -145,14 +145,13 @@ void AppendSphereRays(const float position[3], const RandomStream& stream, uint3
 }
 
 void AppendSolidAngleRays(const EmitterFrame& frame, const SphericalTriangle& pyramid,
-                          const RandomStream& stream, uint32_t begin, uint32_t end,
-                          RayBatch& batch, float* cosine) {
+                          const RandomStream& stream, uint32_t begin, uint32_t end, RayBatch& batch,
+                          float* cosine) {
   ForEachRay(stream, begin, end, batch, [&](int slot, const RandomNumbers8& random, int lane) {
     PutOrigin(frame, TrianglePoint(random.numbers[0][lane], random.numbers[1][lane]), batch, slot);
-    const Vec3 d =
-        pyramid.SampleSolidAngle(random.numbers[2][lane], random.numbers[3][lane]);
-    PutDirection(frame, static_cast<float>(d.x), static_cast<float>(d.y),
-                 static_cast<float>(d.z), batch, slot);
+    const Vec3 d = pyramid.SampleSolidAngle(random.numbers[2][lane], random.numbers[3][lane]);
+    PutDirection(frame, static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z),
+                 batch, slot);
     cosine[slot] = static_cast<float>(std::max(0.0, d.z));
   });
 }
@@ -179,8 +178,8 @@ void AppendProjectedAngleRays(const EmitterFrame& frame, const SphericalTriangle
     const uint32_t ray = begin + static_cast<uint32_t>(slot - first);
     const Vec3 d = SampleProjectedAngle(pyramid, stream, ray, random.numbers[2][lane],
                                         random.numbers[3][lane]);
-    PutDirection(frame, static_cast<float>(d.x), static_cast<float>(d.y),
-                 static_cast<float>(d.z), batch, slot);
+    PutDirection(frame, static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z),
+                 batch, slot);
   });
 }
 

@@ -24,9 +24,7 @@ class Emitters {
   Emitters(const PatchSet& patches, const RayScene& scene);
 
   PatchIndex patch_count() const { return static_cast<PatchIndex>(triangles_.size()); }
-  PatchIndex size() const {
-    return patch_count() + static_cast<PatchIndex>(point_lights_.size());
-  }
+  PatchIndex size() const { return patch_count() + static_cast<PatchIndex>(point_lights_.size()); }
   bool IsPointLight(PatchIndex emitter) const { return emitter >= patch_count(); }
   // Requires: emitter < patch_count().
   EmitterFrame Frame(PatchIndex emitter) const;
@@ -51,8 +49,8 @@ void AppendSphereRays(const float position[3], const RandomStream& stream, uint3
 // Uniform on the patch, uniform in the solid angle of `pyramid` (figure 7). Writes cos theta of the
 // ray in each slot of the batch to cosine[slot] (RayBatch::kSlots values).
 void AppendSolidAngleRays(const EmitterFrame& frame, const SphericalTriangle& pyramid,
-                          const RandomStream& stream, uint32_t begin, uint32_t end,
-                          RayBatch& batch, float* cosine);
+                          const RandomStream& stream, uint32_t begin, uint32_t end, RayBatch& batch,
+                          float* cosine);
 // The same with density proportional to cos theta inside the pyramid, by rejection.
 void AppendProjectedAngleRays(const EmitterFrame& frame, const SphericalTriangle& pyramid,
                               const RandomStream& stream, uint32_t begin, uint32_t end,

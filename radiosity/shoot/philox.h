@@ -11,10 +11,10 @@ namespace lambert {
 
 // What a ray's numbers are for; each purpose is a stream of its own.
 enum class RandomPurpose : uint32_t {
-  kRay = 0,           // position on the emitter and direction
-  kPyramidOffset = 1, // start of the systematic rounding over pyramids
-  kPatchOffset = 2,   // start of the systematic rounding over patches
-  kRetry = 8,         // + k: the k-th retry of a rejected direction
+  kRay = 0,            // position on the emitter and direction
+  kPyramidOffset = 1,  // start of the systematic rounding over pyramids
+  kPatchOffset = 2,    // start of the systematic rounding over patches
+  kRetry = 8,          // + k: the k-th retry of a rejected direction
 };
 
 struct RandomStream {

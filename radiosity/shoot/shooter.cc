@@ -246,8 +246,8 @@ void EmbreeShooter::ShootPyramid(const EmitterFrame& frame, int p, const Visit& 
       const Deal deal(std::llround(flux), rays);
       for (uint32_t k = ray; k < until; ++k) {
         const int s = slot + static_cast<int>(k - ray);
-        flight.SetFlux(s, c, weighted ? std::llround(per_cosine * flight.cosine()[s])
-                                      : deal.Of(k - first));
+        flight.SetFlux(
+            s, c, weighted ? std::llround(per_cosine * flight.cosine()[s]) : deal.Of(k - first));
       }
     }
     ray = until;

@@ -20,8 +20,8 @@ std::string UnitVersion();
 // of threads at once. It creates no threads.
 class Shooter {
  public:
-  // Fails with FAILED_PRECONDITION where the processor lacks AVX2, RESOURCE_EXHAUSTED where there is
-  // too little memory. Requires: options.method is not kAuto.
+  // Fails with FAILED_PRECONDITION where the processor lacks AVX2, RESOURCE_EXHAUSTED where there
+  // is too little memory. Requires: options.method is not kAuto.
   static absl::StatusOr<std::shared_ptr<const Shooter>> Create(
       std::shared_ptr<const PatchSet> patches, const ShootOptions& options);
   virtual ~Shooter() = default;

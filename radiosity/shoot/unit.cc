@@ -126,8 +126,8 @@ std::string EncodeUnit(const WorkUnit& unit) {
   header.step = unit.step;
   writer.Put(header);
   for (const Visit& v : unit.visits) {
-    writer.Put(VisitBytes{v.emitter, v.ray_count, v.ray_begin, v.ray_end,
-                          {v.quanta[0], v.quanta[1], v.quanta[2]}});
+    writer.Put(VisitBytes{
+        v.emitter, v.ray_count, v.ray_begin, v.ray_end, {v.quanta[0], v.quanta[1], v.quanta[2]}});
   }
   return writer.Take();
 }
@@ -144,8 +144,8 @@ absl::StatusOr<WorkUnit> DecodeUnit(const std::string& bytes) {
   for (uint32_t k = 0; k < header.visits; ++k) {
     VisitBytes v;
     reader.Get(&v);
-    unit.visits.push_back({v.emitter, v.ray_count, v.ray_begin, v.ray_end,
-                           {v.quanta[0], v.quanta[1], v.quanta[2]}});
+    unit.visits.push_back(
+        {v.emitter, v.ray_count, v.ray_begin, v.ray_end, {v.quanta[0], v.quanta[1], v.quanta[2]}});
   }
   return unit;
 }
@@ -185,8 +185,8 @@ absl::StatusOr<UnitResult> DecodeUnitResult(const std::string& bytes, PatchIndex
       return Corrupt("unit result", "its patches are out of order or out of range");
     }
     previous = d.patch;
-    result.deposits.push_back({d.quanta[0], d.quanta[1], d.quanta[2], d.hits,
-                               static_cast<PatchIndex>(d.patch)});
+    result.deposits.push_back(
+        {d.quanta[0], d.quanta[1], d.quanta[2], d.hits, static_cast<PatchIndex>(d.patch)});
   }
   return result;
 }

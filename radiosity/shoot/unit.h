@@ -27,7 +27,7 @@ struct Visit {
   PatchIndex emitter = 0;
   uint32_t ray_count = 0;
   uint32_t ray_begin = 0, ray_end = 0;
-  Quanta quanta{};          // dealt over all ray_count rays: quotient, then one extra to the first
+  Quanta quanta{};  // dealt over all ray_count rays: quotient, then one extra to the first
   bool operator==(const Visit&) const = default;
 };
 
@@ -52,10 +52,10 @@ struct Deposit {
 struct UnitResult {
   // Of the patches that were hit, in order: the last rays of a pass hit few of many patches.
   std::vector<Deposit> deposits;
-  Quanta shot{};                  // = sum of deposits + escaped, each channel
-  Quanta escaped{};               // left the scene
+  Quanta shot{};     // = sum of deposits + escaped, each channel
+  Quanta escaped{};  // left the scene
   int64_t rays = 0;
-  double cpu_seconds = 0;         // of the thread that ran it; not part of the canonical bytes
+  double cpu_seconds = 0;  // of the thread that ran it; not part of the canonical bytes
   bool operator==(const UnitResult&) const = default;
 };
 
@@ -66,10 +66,10 @@ void MergeResult(const UnitResult& from, UnitResult& into);
 // `unit`; else DATA_LOSS (reason RESULT_INVALID) with both numbers.
 absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result);
 
-// Canonical bytes (docs/formats.md): a unit's result has the same bytes wherever it was computed, so
-// cpu_seconds travels beside them (0 after decoding). Decoding fails with DATA_LOSS and never
-// crashes; limits are checked before anything is allocated. `patch_count` is what the result must be
-// about.
+// Canonical bytes (docs/formats.md): a unit's result has the same bytes wherever it was computed,
+// so cpu_seconds travels beside them (0 after decoding). Decoding fails with DATA_LOSS and never
+// crashes; limits are checked before anything is allocated. `patch_count` is what the result must
+// be about.
 std::string EncodeUnit(const WorkUnit& unit);
 absl::StatusOr<WorkUnit> DecodeUnit(const std::string& bytes);
 std::string EncodeUnitResult(const UnitResult& result);

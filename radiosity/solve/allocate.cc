@@ -6,9 +6,9 @@
 namespace lambert {
 namespace {
 
-constexpr int64_t kUnitsPerStep = 32;        // enough to balance a dozen workers
-constexpr int64_t kMinUnitRays = 1 << 14;    // about 4 ms: more than an exchange costs
-constexpr int64_t kMaxUnitRays = 1 << 21;    // about half a second
+constexpr int64_t kUnitsPerStep = 32;           // enough to balance a dozen workers
+constexpr int64_t kMinUnitRays = 1 << 14;       // about 4 ms: more than an exchange costs
+constexpr int64_t kMaxUnitRays = 1 << 21;       // about half a second
 constexpr double kMaxVisitRays = 4294967295.0;  // ray numbers have 32 bits
 
 struct Share {

@@ -22,7 +22,8 @@ absl::Status SolveOptions::Validate() const {
   }
   if (max_rays < 0) return FieldError("max-rays", "it is negative", "use 0 for no budget");
   if (!(max_time_s >= 0) || !std::isfinite(max_time_s)) {
-    return FieldError("max-time", "it is negative or not finite", "use seconds, or 0 for no budget");
+    return FieldError("max-time", "it is negative or not finite",
+                      "use seconds, or 0 for no budget");
   }
   if (!(unsent_tolerance >= 0) || !(unsent_tolerance < 1)) {
     return FieldError("unsent-tolerance", "it is not in 0..1", "use 1e-9");

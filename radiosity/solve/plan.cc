@@ -53,8 +53,8 @@ PlanItem PyramidItem(const PatchSet& patches, const ShootOptions& shoot, double 
     item.reason = "patch areas are even (mean area times mean inverse area " + Text(unevenness) +
                   ", under " + Text(kUnevenAreas) + "): densities would only add noise";
   } else {
-    item.reason = "patch areas are uneven (mean area times mean inverse area " +
-                  Text(unevenness) + "): small patches get more rays";
+    item.reason = "patch areas are uneven (mean area times mean inverse area " + Text(unevenness) +
+                  "): small patches get more rays";
   }
   return item;
 }
@@ -92,12 +92,10 @@ Plan MakePlan(const PatchSet& patches, const SolveOptions& options) {
     plan.items.push_back(DensityItem(patches, solve.shoot.pyramids));
   }
   if (const int64_t black = CountBlack(patches); black > 0) {
-    plan.items.push_back({"rays from black patches", true,
-                          std::to_string(black) + " patches reflect nothing",
-                          Text(100.0 * static_cast<double>(black) /
-                                   static_cast<double>(patches.size()),
-                               "%.0f") +
-                              " % of the patches never shoot what they receive"});
+    plan.items.push_back(
+        {"rays from black patches", true, std::to_string(black) + " patches reflect nothing",
+         Text(100.0 * static_cast<double>(black) / static_cast<double>(patches.size()), "%.0f") +
+             " % of the patches never shoot what they receive"});
   }
   return plan;
 }

@@ -26,8 +26,8 @@ class Replicates {
   int32_t passes() const { return passes_; }
   // Mean solution; standard errors are zero until there are two passes.
   Solution Mean() const;
-  // CONTRACT's rms_area and rms_patch of the mean, estimated; -1 with fewer than two passes; 0 where
-  // nothing is reflected.
+  // CONTRACT's rms_area and rms_patch of the mean, estimated; -1 with fewer than two passes; 0
+  // where nothing is reflected.
   double EstimatedRmsArea() const { return EstimatedRms(/*by_area=*/true); }
   double EstimatedRmsPatch() const { return EstimatedRms(/*by_area=*/false); }
 
@@ -40,12 +40,12 @@ class Replicates {
 
   const PatchSet& patches_;
   int32_t passes_ = 0;
-  double weight_ = 0;                 // sum of N_p
-  std::vector<Rgb> irradiance_lx_;    // mean
-  std::vector<Rgb> spread_;           // sum N_p (x_p - x)^2 of the radiosity, per channel
-  std::vector<double> gray_spread_;   // the same of the mean of its channels
+  double weight_ = 0;                // sum of N_p
+  std::vector<Rgb> irradiance_lx_;   // mean
+  std::vector<Rgb> spread_;          // sum N_p (x_p - x)^2 of the radiosity, per channel
+  std::vector<double> gray_spread_;  // the same of the mean of its channels
   std::vector<int64_t> hits_;
-  Ledger ledger_;                     // mean
+  Ledger ledger_;  // mean
 };
 
 }  // namespace lambert

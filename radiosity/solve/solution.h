@@ -19,10 +19,10 @@ struct Ledger {
 };
 
 struct Solution {
-  std::vector<Rgb> radiosity_lm_per_m2;   // all that leaves, emitted and reflected
-  std::vector<Rgb> irradiance_lx;         // all that arrives
-  std::vector<Rgb> std_error_lm_per_m2;   // standard error of the radiosity, from replicates
-  std::vector<int64_t> hits;              // rays that arrived, over all passes
+  std::vector<Rgb> radiosity_lm_per_m2;  // all that leaves, emitted and reflected
+  std::vector<Rgb> irradiance_lx;        // all that arrives
+  std::vector<Rgb> std_error_lm_per_m2;  // standard error of the radiosity, from replicates
+  std::vector<int64_t> hits;             // rays that arrived, over all passes
   Ledger ledger;
 };
 
@@ -41,7 +41,7 @@ struct Progress {
 
 // The averaged solution after a pass.
 struct Snapshot {
-  int64_t version = 0;              // 1, 2, ... within a job
+  int64_t version = 0;  // 1, 2, ... within a job
   Progress progress;
   std::shared_ptr<const Solution> solution;
 };

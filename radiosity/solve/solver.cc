@@ -19,7 +19,7 @@ constexpr uint32_t kCheckpointMagic = 0x3153534C;  // "LSS1"
 constexpr double kPassGrowth = 1.5;
 constexpr int32_t kFirstPasses = 2;        // one pass has no standard error
 constexpr int32_t kMinPassesForError = 3;  // before an estimated error is believed
-constexpr double kBudgetMargin = 0.01;     // of the rays left: a pass's rays are known to about this
+constexpr double kBudgetMargin = 0.01;  // of the rays left: a pass's rays are known to about this
 // Steps without any absorption or escape after which the flux is taken to have no way out.
 constexpr int64_t kStepsWithoutLoss = 10000;
 
@@ -59,11 +59,16 @@ absl::StatusOr<UnitResult> SerialExecutor::RunStep(const std::vector<WorkUnit>& 
 
 const char* StopReasonName(StopReason reason) {
   switch (reason) {
-    case StopReason::kNone: return "none";
-    case StopReason::kErrorReached: return "error_reached";
-    case StopReason::kRaysSpent: return "rays_spent";
-    case StopReason::kTimeSpent: return "time_spent";
-    case StopReason::kNothingToShoot: return "nothing_to_shoot";
+    case StopReason::kNone:
+      return "none";
+    case StopReason::kErrorReached:
+      return "error_reached";
+    case StopReason::kRaysSpent:
+      return "rays_spent";
+    case StopReason::kTimeSpent:
+      return "time_spent";
+    case StopReason::kNothingToShoot:
+      return "nothing_to_shoot";
   }
   return "unknown";
 }
@@ -103,7 +108,7 @@ struct Solver::State {
   const std::function<double()> now;
   Replicates replicates;
   double started;
-  CheckpointHeader at;  // where the run stands
+  CheckpointHeader at;                                       // where the run stands
   double estimated_rms_area = -1, estimated_rms_patch = -1;  // of the replicates
   int32_t step = 0;
   int64_t steps_without_loss = 0;
@@ -199,12 +204,10 @@ absl::Status Solver::State::RunOnePass(StepExecutor& executor,
   return absl::OkStatus();
 }
 
-void Solver::State::KeepPass(const FluxLedger& ledger, int64_t pass_rays,
-                             int64_t first_step_rays) {
+void Solver::State::KeepPass(const FluxLedger& ledger, int64_t pass_rays, int64_t first_step_rays) {
   if (pass_rays > 0) replicates.Add(ledger, pass_rays);
   if (first_step_rays > 0) {
-    at.rays_per_first_ray =
-        static_cast<double>(pass_rays) / static_cast<double>(first_step_rays);
+    at.rays_per_first_ray = static_cast<double>(pass_rays) / static_cast<double>(first_step_rays);
   }
   ++at.next_pass;
   EstimateError();

@@ -34,7 +34,7 @@ class SerialExecutor : public StepExecutor {
 };
 
 enum class StopReason : uint8_t {
-  kNone = 0,        // another pass is wanted
+  kNone = 0,  // another pass is wanted
   kErrorReached = 1,
   kRaysSpent = 2,
   kTimeSpent = 3,
@@ -58,8 +58,7 @@ class Solver {
   // One more pass; `on_step` is called after every step. OK also when the time budget ends the pass
   // early. CANCELLED from the executor is passed on; the snapshot then keeps finished passes (or
   // the partial first one).
-  absl::Status RunPass(StepExecutor& executor,
-                       const std::function<void(const Progress&)>& on_step);
+  absl::Status RunPass(StepExecutor& executor, const std::function<void(const Progress&)>& on_step);
 
   // After 0 passes: emission only, unsent fraction 1.
   Snapshot MakeSnapshot() const;

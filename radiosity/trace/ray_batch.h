@@ -10,7 +10,7 @@ namespace lambert {
 inline constexpr PatchIndex kEscaped = -1;  // RayBatch::hit of a ray that left the scene
 
 struct RayBatch {
-  static constexpr int kCapacity = 1024;  // a multiple of the packet width; fits the L2 cache
+  static constexpr int kCapacity = 1024;        // a multiple of the packet width; fits the L2 cache
   static constexpr int kSlots = kCapacity + 8;  // samplers write eight rays at a time
 
   int size = 0;  // <= kCapacity

@@ -62,15 +62,15 @@ bool HitsBack(const RTCRayHit& r) {
 }  // namespace
 
 struct RayScene::Impl {
-  Vec3 center;        // of the bounding box, metres relative to the patch set's origin
-  double scale = 1;   // trace coordinates per metre
+  Vec3 center;       // of the bounding box, metres relative to the patch set's origin
+  double scale = 1;  // trace coordinates per metre
   Faces faces;
   std::vector<float> vertices;  // 9 a triangle and 4 of padding, shared with Embree
   std::vector<uint32_t> indices;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  // The same triangles with CullBacks, for the rays that meet a back first: built when there is one,
-  // as a filter function would slow every packet down.
+  // The same triangles with CullBacks, for the rays that meet a back first: built when there is
+  // one, as a filter function would slow every packet down.
   mutable std::once_flag culling_once;
   mutable RTCScene culling = nullptr;
 

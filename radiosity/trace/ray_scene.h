@@ -3,8 +3,8 @@
 // Trace coordinates are the patch set's, recentred on its bounding box and scaled by a power of two
 // so that the box has a diagonal in [1, 2): distances and offsets mean the same at any scale.
 //
-// Leaks and self-hits: traversal is robust (watertight along shared edges), rays start kOriginOffset
-// above their patch and may hit at any distance > 0.
+// Leaks and self-hits: traversal is robust (watertight along shared edges), rays start
+// kOriginOffset above their patch and may hit at any distance > 0.
 //
 // One-sided patches exist from their front only, as glTF has it: rays pass through their backs. So
 // walls that stand back to back, even in one plane, each show their own side, and what a patch that
@@ -21,8 +21,8 @@
 
 namespace lambert {
 
-// Height above its patch at which a ray starts: 8 float32 spacings at coordinate 1, so that rounding
-// never puts an origin below its own patch. In trace coordinates.
+// Height above its patch at which a ray starts: 8 float32 spacings at coordinate 1, so that
+// rounding never puts an origin below its own patch. In trace coordinates.
 inline constexpr float kOriginOffset = 4.8e-7f;
 
 // The answer to one ray of a picture.

@@ -1,5 +1,5 @@
-// CIE 171:2006, case 5.8: a 4 m cube with an isotropic 10,000 lm point source at its centre. The area
-// mean of the indirect illuminance is phi / S rho / (1 - rho), S = 96 m2.
+// CIE 171:2006, case 5.8: a 4 m cube with an isotropic 10,000 lm point source at its centre. The
+// area mean of the indirect illuminance is phi / S rho / (1 - rho), S = 96 m2.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,11 +21,10 @@ TEST_P(Cie171Case58, MeanIndirectIlluminance) {
   maker.Light({2, 2, 2}, {intensity_cd, intensity_cd, intensity_cd});
   const PatchSet patches = PatchesOf(maker.Make());
   // All direct light arrives: its mean is phi / S without error.
-  ExpectTruths(patches, WithRays(Method::kPmcr, static_cast<int64_t>(4e4 / (1 - rho) / rho)),
-               {{"mean indirect illuminance", 10000.0 / 96 * rho / (1 - rho),
-                 [&](const Solution& s) {
-                   return AreaMean(patches, s.irradiance_lx) - 10000.0 / 96;
-                 }}});
+  ExpectTruths(
+      patches, WithRays(Method::kPmcr, static_cast<int64_t>(4e4 / (1 - rho) / rho)),
+      {{"mean indirect illuminance", 10000.0 / 96 * rho / (1 - rho),
+        [&](const Solution& s) { return AreaMean(patches, s.irradiance_lx) - 10000.0 / 96; }}});
 }
 
 INSTANTIATE_TEST_SUITE_P(Reflectances, Cie171Case58,

@@ -31,8 +31,7 @@ INSTANTIATE_TEST_SUITE_P(Reflectances, Furnace,
                                           testing::Values(0.1, 0.5, 0.8, 0.9)),
                          FurnaceName);
 INSTANTIATE_TEST_SUITE_P(Stiff, Furnace,
-                         testing::Combine(testing::Values(Method::kPmcr),
-                                          testing::Values(0.99)),
+                         testing::Combine(testing::Values(Method::kPmcr), testing::Values(0.99)),
                          FurnaceName);
 
 TEST(FurnaceSphere, EveryPatchAgreesWithinItsStandardError) {

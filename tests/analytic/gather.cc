@@ -60,8 +60,7 @@ class Walker {
                    static_cast<double>(kOriginOffset) * z;
     const double angle = 2 * std::numbers::pi * uniform_(random_), s2 = uniform_(random_);
     const double sine = std::sqrt(s2);
-    const Vec3 d = sine * std::cos(angle) * x + sine * std::sin(angle) * y +
-                   std::sqrt(1 - s2) * z;
+    const Vec3 d = sine * std::cos(angle) * x + sine * std::sin(angle) * y + std::sqrt(1 - s2) * z;
     batch_->origin_x[slot] = static_cast<float>(o.x);
     batch_->origin_y[slot] = static_cast<float>(o.y);
     batch_->origin_z[slot] = static_cast<float>(o.z);

@@ -37,9 +37,9 @@ struct Truth {
 };
 
 // Each must be within 3 standard errors of its mean over 16 seeds, and that standard error under
-// .5 % of it. Chance alone puts one in a hundred correct numbers outside (Student's t with 15 degrees
-// of freedom), so what is outside must be inside with 64 other seeds: one in 40,000 then fails by
-// chance, and a true bias of 3 standard errors is the better seen.
+// .5 % of it. Chance alone puts one in a hundred correct numbers outside (Student's t with 15
+// degrees of freedom), so what is outside must be inside with 64 other seeds: one in 40,000 then
+// fails by chance, and a true bias of 3 standard errors is the better seen.
 void ExpectTruths(const PatchSet& patches, const SolveOptions& options,
                   const std::vector<Truth>& truths);
 

@@ -35,10 +35,9 @@ TEST_P(Squares, HaveTheExactRadiosity) {
   const auto& [method, c] = GetParam();
   const PatchSet patches = PatchesOf(c.parallel ? MakeParallelSquares(c.rho_a, c.rho_b)
                                                 : MakePerpendicularSquares(c.rho_a, c.rho_b));
-  ExpectTruths(
-      patches, WithRays(method, 200000),
-      {{"square a", c.b_a, [&](const Solution& s) { return SquareMean(patches, s, 0); }},
-       {"square b", c.b_b, [&](const Solution& s) { return SquareMean(patches, s, 1); }}});
+  ExpectTruths(patches, WithRays(method, 200000),
+               {{"square a", c.b_a, [&](const Solution& s) { return SquareMean(patches, s, 0); }},
+                {"square b", c.b_b, [&](const Solution& s) { return SquareMean(patches, s, 1); }}});
 }
 
 // For the parallel squares the triangles' solution is the squares' own, by symmetry.
