@@ -7,6 +7,7 @@ namespace lambert::examples {
 namespace {
 
 constexpr double kTouch_m = 1e-9;  // coordinates that are nearer than this are the same
+constexpr double kGrading = 4;     // widest ratio of neighbouring gaps of a grid
 constexpr int kAir = -1;
 
 using Lines = std::array<std::vector<double>, 3>;  // the planes of a grid, along each axis
@@ -16,14 +17,28 @@ std::vector<double> Divide(std::vector<double> cuts, double max_gap_m) {
   std::sort(cuts.begin(), cuts.end());
   std::vector<double> lines{cuts.front()};
   for (double cut : cuts) {
-    const double gap_m = cut - lines.back();
+    const double begin = lines.back(), gap_m = cut - begin;
     if (gap_m < kTouch_m) continue;
-    const double begin = lines.back();
     const int parts = static_cast<int>(std::ceil(gap_m / max_gap_m - kTouch_m));
     for (int i = 1; i < parts; ++i) lines.push_back(begin + gap_m * i / parts);
     lines.push_back(cut);
   }
   return lines;
+}
+
+// Halves gaps that are more than kGrading times as wide as one beside them, until none is.
+void Grade(std::vector<double>& lines) {
+  for (size_t i = 0; i + 1 < lines.size();) {
+    const double gap_m = lines[i + 1] - lines[i];
+    const double before_m = i > 0 ? lines[i] - lines[i - 1] : gap_m;
+    const double after_m = i + 2 < lines.size() ? lines[i + 2] - lines[i + 1] : gap_m;
+    if (gap_m <= kGrading * std::min(before_m, after_m)) {
+      ++i;
+      continue;
+    }
+    lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(i) + 1, lines[i] + gap_m / 2);
+    i -= i > 0 ? 1 : 0;  // the half may be too narrow for the gap before it
+  }
 }
 
 bool Contains(const Box& box, const std::array<double, 3>& point) {
@@ -132,6 +147,7 @@ Lines WallLines(const Room& room, int axis, double at, const std::vector<Box>& b
       }
     }
     lines[along] = Divide(std::move(cuts), max_edge_m);
+    Grade(lines[along]);
   }
   return lines;
 }

@@ -33,8 +33,8 @@ struct Room {
 // not near each other belong in lists of their own.
 std::vector<Quad> BoxFaces(const std::vector<Box>& boxes, const Room& room, double max_edge_m);
 
-// The walls of the room, seen from inside, without the parts that a box covers. A part that lies in
-// a region of `paint` gets its object instead of the wall's.
+// The walls of the room, seen from inside, without the parts that a box covers; finer toward narrow
+// boxes. A part that lies in a region of `paint` gets its object instead of the wall's.
 std::vector<Quad> RoomFaces(const Room& room, const std::vector<Box>& boxes,
                             const std::vector<Box>& paint, double max_edge_m);
 

@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kWallEdge_m = 0.24;       // longest patch edge on floor, walls and ceiling
 constexpr double kFurnitureEdge_m = 0.22;  // and on furniture
+constexpr Vec3 kGlobe{0.21, 0.9, 1.51};    // its centre, .07 m from the wall at x = 0
+constexpr double kGlobeRadius_m = 0.14;
 constexpr double kWidth_m = 5, kHeight_m = 2.7, kDepth_m = 4;  // x, y, z of the room
 
 // Collects materials, objects and the faces of each.
@@ -164,7 +166,7 @@ std::vector<Boxes> Furnish(RoomBuilder& room) {
   const int red = room.Material("red cloth", {0.55, 0.12, 0.1});
   const int blue = room.Material("blue cloth", {0.12, 0.22, 0.45});
   const int cream = room.Material("cream cloth", {0.75, 0.68, 0.52});
-  const int panel = room.Material("luminaire panel", {0.8, 0.8, 0.8}, {4000, 3700, 3300});
+  const int panel = room.Material("luminaire panel", {0.8, 0.8, 0.8}, {4000, 3850, 3600});
   const std::array<int, 3> books{room.Object("red books", red), room.Object("blue books", blue),
                                  room.Object("cream books", cream)};
   std::vector<Boxes> groups;
@@ -197,10 +199,16 @@ void AddRoom(const std::vector<Boxes>& groups, RoomBuilder& room) {
   const int door = room.Object("door", room.Material("grey door", {0.55, 0.56, 0.55}));
   const Room walls{
       {0, 0, 0}, {kWidth_m, kHeight_m, kDepth_m}, {left, right, floor, ceiling, plaster, front}};
-  const Boxes paint{{{1.1, 0, 1.2}, {3.5, 0, 3}, rug},
-                    {{1.4, 1.6, 0}, {2.6, 2.1, 0}, sky},
-                    {{1.4, 1.3, 0}, {2.6, 1.6, 0}, field},
-                    {{kWidth_m, 0, 1.2}, {kWidth_m, 2.1, 2.1}, door}};
+  Boxes paint{{{1.1, 0, 1.2}, {3.5, 0, 3}, rug},
+              {{1.4, 1.6, 0}, {2.6, 2.1, 0}, sky},
+              {{1.4, 1.3, 0}, {2.6, 1.6, 0}, field},
+              {{kWidth_m, 0, 1.2}, {kWidth_m, 2.1, 2.1}, door}};
+  // The wall behind the globe in finer patches: its light falls off within centimetres there.
+  for (double reach_m : {0.06, 0.13, 0.21, 0.32}) {
+    paint.push_back({{0, kGlobe.y - reach_m, kGlobe.z - reach_m},
+                     {0, kGlobe.y + reach_m, kGlobe.z + reach_m},
+                     left});
+  }
   Boxes all;
   for (const Boxes& group : groups) {
     room.Add(BoxFaces(group, walls, kFurnitureEdge_m));
@@ -212,12 +220,12 @@ void AddRoom(const std::vector<Boxes>& groups, RoomBuilder& room) {
 GlbScene MakeRoom() {
   RoomBuilder room;
   AddRoom(Furnish(room), room);
-  const int opal = room.Material("opal glass", {0.8, 0.8, 0.8}, {2600, 1900, 1150});
-  AddSphere({0.21, 0.76 + 0.14, 1.51}, 0.14, 2, room.Object("globe", opal), room);
+  const int opal = room.Material("opal glass", {0.8, 0.8, 0.8}, {1500, 1100, 700});
+  AddSphere(kGlobe, kGlobeRadius_m, 2, room.Object("globe", opal), room);
   GlbScene& scene = room.scene();
   scene.name = "room";
   scene.copyright = "CC0 1.0: the Lambert authors dedicate this scene to the public domain";
-  scene.camera = {"camera", {4.75, 1.6, 3.85}, {1.75, 0.95, 0.9}, 0.95, 1.5};
+  scene.camera = {"camera", {4.75, 1.6, 3.85}, {1.95, 1.02, 0.9}, 0.95, 1.5};
   return scene;
 }
 
