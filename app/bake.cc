@@ -79,6 +79,8 @@ absl::Status Bake::Prepare() {
   if (!bundle.ok()) return bundle.status();
   bundle_ = *std::move(bundle);
   if (absl::Status status = TestOutputFolder(options_.out_folder); !status.ok()) return status;
+  absl::Status kept = CheckSceneIsKept(options_.scene_path, options_.out_folder);
+  if (!kept.ok()) return kept;
   auto measurer = Measurer::Create(options_.reference_path, options_.regions);
   if (!measurer.ok()) return measurer.status();
   measurer_ = *std::move(measurer);

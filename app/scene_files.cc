@@ -74,4 +74,13 @@ absl::StatusOr<SceneBundle> ReadSceneBundle(const std::string& path) {
 
 std::string SceneStem(const std::string& path) { return fs::path(path).stem().string(); }
 
+absl::Status CheckSceneIsKept(const std::string& scene_path, const std::string& out_folder) {
+  const fs::path result = fs::path(out_folder) / (SceneStem(scene_path) + ".glb");
+  std::error_code ignored;  // no such result yet
+  if (!fs::equivalent(scene_path, result, ignored)) return absl::OkStatus();
+  return MakeError(absl::StatusCode::kInvalidArgument,
+                   {"FIELD_INVALID", "-o " + out_folder,
+                    "the result would overwrite the scene " + scene_path, "give another folder"});
+}
+
 }  // namespace lambert::app

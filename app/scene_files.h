@@ -16,4 +16,7 @@ absl::StatusOr<SceneBundle> ReadSceneBundle(const std::string& path);
 // "rooms/office.glb" -> "office": names the files of a result.
 std::string SceneStem(const std::string& path);
 
+// FIELD_INVALID where the result in `out_folder` would overwrite the scene that it is made of.
+absl::Status CheckSceneIsKept(const std::string& scene_path, const std::string& out_folder);
+
 }  // namespace lambert::app

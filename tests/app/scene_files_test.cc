@@ -79,6 +79,13 @@ TEST_F(SceneFiles, BrokenJsonIsABadScene) {
             ExitCode::kBadScene);
 }
 
+TEST_F(SceneFiles, AResultMustNotOverwriteItsScene) {
+  const std::string scene = Write("room.glb", "glTF");
+  const absl::Status refused = CheckSceneIsKept(scene, folder_.string() + "/parts/..");
+  EXPECT_EQ(ExitCodeFor(refused), ExitCode::kUsage) << refused;
+  EXPECT_TRUE(CheckSceneIsKept(scene, (folder_ / "parts").string()).ok());
+}
+
 TEST(SceneStem, NamesTheFilesOfAResult) { EXPECT_EQ(SceneStem("a/room.v2.glb"), "room.v2"); }
 
 }  // namespace
