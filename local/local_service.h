@@ -12,7 +12,7 @@ class Channel;
 namespace lambert {
 
 struct LocalServiceOptions {
-  int workers = 1;            // > 0
+  int workers = 1;             // > 0
   int threads_per_worker = 1;  // > 0: units that one worker runs at once
 };
 

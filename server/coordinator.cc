@@ -39,8 +39,7 @@ Coordinator::Coordinator(const CoordinatorOptions& options, std::unique_ptr<Blob
                options.log}),
       pool_(kPoolThreads) {}
 
-absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Start(
-    const CoordinatorOptions& options) {
+absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Start(const CoordinatorOptions& options) {
   std::unique_ptr<BlobStore> blobs = MakeMemoryBlobStore(options.max_store_bytes);
   std::unique_ptr<RecordStore> records = MakeNullRecordStore();
   if (!options.data_folder.empty()) {
@@ -141,9 +140,9 @@ absl::StatusOr<v1::SolveJob> Coordinator::CancelJob(const std::string& name) {
 
 absl::Status Coordinator::DeleteScene(const std::string& name) {
   if (jobs_.UsesScene(name)) {
-    return MakeError(absl::StatusCode::kFailedPrecondition,
-                     {"SCENE_IN_USE", name, "a job that has not ended solves it",
-                      "cancel the job first"});
+    return MakeError(
+        absl::StatusCode::kFailedPrecondition,
+        {"SCENE_IN_USE", name, "a job that has not ended solves it", "cancel the job first"});
   }
   return scenes_.Delete(name);
 }

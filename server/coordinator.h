@@ -25,15 +25,15 @@
 namespace lambert::server {
 
 struct CoordinatorOptions {
-  std::string data_folder;                       // "": everything in memory, gone with the process
-  int64_t max_store_bytes = int64_t{8} << 30;    // of blobs in memory; unused with a data folder
+  std::string data_folder;                     // "": everything in memory, gone with the process
+  int64_t max_store_bytes = int64_t{8} << 30;  // of blobs in memory; unused with a data folder
   UploadLimits uploads;
   SceneLimits scene;
-  int64_t max_patches = 20'000'000;              // of one job
-  int max_running_jobs = 2;                      // > 0; others wait
-  int max_waiting_jobs = 100;                    // jobs that have not ended, > 0
+  int64_t max_patches = 20'000'000;  // of one job
+  int max_running_jobs = 2;          // > 0; others wait
+  int max_waiting_jobs = 100;        // jobs that have not ended, > 0
   WorkOptions work;
-  std::string unit_version;                      // "": that of this program
+  std::string unit_version;  // "": that of this program
   Clock clock = SteadyNow;
   Log log = [](const std::string&) {};
 };

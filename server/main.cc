@@ -20,8 +20,7 @@ int Run(const CoordinatorOptions& options, const std::string& listen, const sigs
     std::fprintf(stderr, "error: %s\n", std::string(coordinator.status().message()).c_str());
     return 1;
   }
-  absl::StatusOr<std::unique_ptr<RpcServer>> server =
-      RpcServer::Start(coordinator->get(), listen);
+  absl::StatusOr<std::unique_ptr<RpcServer>> server = RpcServer::Start(coordinator->get(), listen);
   if (!server.ok()) {
     std::fprintf(stderr, "error: %s\n", std::string(server.status().message()).c_str());
     return 1;

@@ -16,9 +16,7 @@ void LeaseBook::Revoke(const std::string& lease) {
 
 std::optional<v1::Lease> LeaseBook::Take() {
   absl::MutexLock lock(&mutex_);
-  auto ready = [this]() ABSL_SHARED_LOCKS_REQUIRED(mutex_) {
-    return closed_ || !waiting_.empty();
-  };
+  auto ready = [this]() ABSL_SHARED_LOCKS_REQUIRED(mutex_) { return closed_ || !waiting_.empty(); };
   mutex_.Await(absl::Condition(&ready));
   if (closed_) return std::nullopt;
   v1::Lease lease = std::move(waiting_.front());

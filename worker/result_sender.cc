@@ -21,11 +21,11 @@ ResultSender::~ResultSender() {
   thread_.join();
 }
 
-void ResultSender::Send(const v1::Lease& lease, UnitResult result) {
+void ResultSender::Send(const v1::Lease& lease, UnitResult result, double run_seconds) {
   absl::MutexLock lock(&mutex_);
   auto has_room = [this]() ABSL_SHARED_LOCKS_REQUIRED(mutex_) { return items_.size() < capacity_; };
   mutex_.Await(absl::Condition(&has_room));
-  items_.push_back({lease, std::move(result)});
+  items_.push_back({lease, std::move(result), run_seconds});
 }
 
 void ResultSender::StopRetrying() { stop_retrying_.Notify(); }
@@ -35,9 +35,8 @@ void ResultSender::Work() {
     Item item;
     {
       absl::MutexLock lock(&mutex_);
-      auto ready = [this]() ABSL_SHARED_LOCKS_REQUIRED(mutex_) {
-        return stopping_ || !items_.empty();
-      };
+      auto ready = [this]()
+                       ABSL_SHARED_LOCKS_REQUIRED(mutex_) { return stopping_ || !items_.empty(); };
       mutex_.Await(absl::Condition(&ready));
       if (items_.empty()) return;
       item = std::move(items_.front());
@@ -56,6 +55,7 @@ void ResultSender::SendOne(const Item& item) {
   header.mutable_result_digest()->set_sha256(Sha256Hex(bytes));
   header.mutable_result_digest()->set_size_bytes(static_cast<int64_t>(bytes.size()));
   header.set_cpu_seconds(item.result.cpu_seconds);
+  header.set_run_seconds(item.run_seconds);
   Backoff backoff;
   while (true) {
     const absl::StatusOr<v1::SubmitUnitResultResponse> sent = link_->Submit(header, bytes);
@@ -63,8 +63,8 @@ void ResultSender::SendOne(const Item& item) {
     const bool is_worth_retrying =
         absl::IsUnavailable(sent.status()) || absl::IsDeadlineExceeded(sent.status());
     if (!is_worth_retrying || stop_retrying_.HasBeenNotified()) {
-      log_(item.lease.name() + ": its result was not taken: " +
-           std::string(sent.status().message()));
+      log_(item.lease.name() +
+           ": its result was not taken: " + std::string(sent.status().message()));
       return;
     }
     backoff.Sleep(stop_retrying_);

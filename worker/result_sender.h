@@ -26,7 +26,8 @@ class ResultSender {
   ~ResultSender();
 
   // Takes over a result; blocks while too many wait. The lease leaves the book when it was sent.
-  void Send(const v1::Lease& lease, UnitResult result);
+  // `run_seconds`: wall-clock time that the unit took.
+  void Send(const v1::Lease& lease, UnitResult result, double run_seconds);
   // From now on a result is offered once only.
   void StopRetrying();
 
@@ -34,6 +35,7 @@ class ResultSender {
   struct Item {
     v1::Lease lease;
     UnitResult result;
+    double run_seconds = 0;
   };
   void Work();
   void SendOne(const Item& item);

@@ -41,7 +41,8 @@ absl::StatusOr<T> Result(const grpc::Status& status, T response) {
 
 struct ServerLink::Stubs {
   explicit Stubs(const std::shared_ptr<grpc::Channel>& channel)
-      : work(v1::WorkerService::NewStub(channel)), blobs(lambert::v1::BlobService::NewStub(channel)) {}
+      : work(v1::WorkerService::NewStub(channel)),
+        blobs(lambert::v1::BlobService::NewStub(channel)) {}
   const std::unique_ptr<v1::WorkerService::Stub> work;
   const std::unique_ptr<lambert::v1::BlobService::Stub> blobs;
   absl::Mutex mutex;

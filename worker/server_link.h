@@ -23,8 +23,8 @@ class ServerLink {
   ~ServerLink();
 
   absl::StatusOr<v1::WorkerSession> CreateSession(const v1::CreateWorkerSessionRequest& request);
-  // Waits `hold` longer than for a call that is answered at once. CANCELLED where it is interrupted,
-  // or is not to begin: `is_interrupted` turns true before InterruptSync is called.
+  // Waits `hold` longer than for a call that is answered at once. CANCELLED where it is
+  // interrupted, or is not to begin: `is_interrupted` turns true before InterruptSync is called.
   absl::StatusOr<v1::SyncWorkerSessionResponse> Sync(const v1::SyncWorkerSessionRequest& request,
                                                      absl::Duration hold,
                                                      const std::function<bool()>& is_interrupted);

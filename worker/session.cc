@@ -89,10 +89,9 @@ absl::Status Session::Exchange() {
   request.set_draining(draining_.HasBeenNotified());
   const std::vector<v1::LeaseReport> reports = book_->Reports();
   for (const v1::LeaseReport& report : reports) *request.add_reports() = report;
-  absl::StatusOr<v1::SyncWorkerSessionResponse> response =
-      link_->Sync(request, absl::Nanoseconds(TimeUtil::DurationToNanoseconds(
-                               session_->sync_interval())),
-                  [this] { return ended_.HasBeenNotified() || has_news_; });
+  absl::StatusOr<v1::SyncWorkerSessionResponse> response = link_->Sync(
+      request, absl::Nanoseconds(TimeUtil::DurationToNanoseconds(session_->sync_interval())),
+      [this] { return ended_.HasBeenNotified() || has_news_; });
   if (!response.ok()) return response.status();
   ++sequence_;
   book_->Confirm(reports);

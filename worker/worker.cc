@@ -2,18 +2,14 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <atomic>
-#include <deque>
+#include <chrono>
 #include <exception>
 #include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "google/protobuf/util/time_util.h"
-#include "radiosity/core/digest.h"
 #include "radiosity/shoot/unit.h"
-#include "worker/backoff.h"
 #include "worker/lease_book.h"
 #include "worker/result_sender.h"
 #include "worker/server_link.h"
@@ -27,14 +23,23 @@ constexpr size_t kShooters = 2;
 constexpr int kKeepaliveMs = 20'000;
 constexpr int kMaxMessageBytes = 64 << 20;
 
-absl::StatusOr<UnitResult> RunUnit(ShooterCache& shooters, const v1::Lease& lease) try {
+struct Ran {
+  UnitResult result;
+  double run_seconds = 0;
+};
+
+absl::StatusOr<Ran> RunUnit(ShooterCache& shooters, const v1::Lease& lease) try {
   absl::StatusOr<std::shared_ptr<const Shooter>> shooter =
       shooters.Get(lease.patch_set_digest().sha256(), lease.patch_set_digest().size_bytes(),
                    lease.shoot_options());
   if (!shooter.ok()) return shooter.status();
   absl::StatusOr<WorkUnit> unit = DecodeUnit(lease.unit());
   if (!unit.ok()) return unit.status();
-  return (*shooter)->Run(*unit);
+  const auto start = std::chrono::steady_clock::now();
+  absl::StatusOr<UnitResult> result = (*shooter)->Run(*unit);
+  if (!result.ok()) return result.status();
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  return Ran{*std::move(result), took.count()};
 } catch (const std::exception& error) {  // memory exhausted, at the worst
   return absl::ResourceExhaustedError(error.what());
 }
@@ -67,12 +72,12 @@ class Worker::Impl {
  private:
   void RunUnits() {
     while (std::optional<v1::Lease> lease = book_.Take()) {
-      absl::StatusOr<UnitResult> result = RunUnit(shooters_, *lease);
-      if (result.ok()) {
-        sender_.Send(*lease, *std::move(result));
+      absl::StatusOr<Ran> ran = RunUnit(shooters_, *lease);
+      if (ran.ok()) {
+        sender_.Send(*lease, std::move(ran->result), ran->run_seconds);
       } else {
-        options_.log(lease->name() + " failed: " + std::string(result.status().message()));
-        book_.Fail(lease->name(), std::string(result.status().message()));
+        options_.log(lease->name() + " failed: " + std::string(ran.status().message()));
+        book_.Fail(lease->name(), std::string(ran.status().message()));
         session_.Report();
       }
     }

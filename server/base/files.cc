@@ -35,8 +35,9 @@ absl::Status WriteAll(int file, const std::string& path, const std::string& byte
 absl::Status FileError(const std::string& path, int error_number) {
   const std::string what = std::strerror(error_number);
   if (error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG) {
-    return MakeError(absl::StatusCode::kResourceExhausted,
-                     {"STORE_FULL", path, what, "delete jobs and scenes, or give the server more disk"});
+    return MakeError(
+        absl::StatusCode::kResourceExhausted,
+        {"STORE_FULL", path, what, "delete jobs and scenes, or give the server more disk"});
   }
   if (error_number == ENOENT) {
     return MakeError(absl::StatusCode::kNotFound,

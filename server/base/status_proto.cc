@@ -15,6 +15,7 @@ constexpr char kMissingBlobs[] = "lambert/missing-blobs";
 // All of a status has to fit into the 8 KiB that gRPC takes of metadata.
 constexpr size_t kMaxTextBytes = 800;
 constexpr int kMaxMissingBlobs = 16;
+constexpr int kRetrySeconds = 1;  // about what a restart takes
 
 // At most kMaxTextBytes, whole UTF-8 characters.
 std::string Cut(const std::string& text) {
@@ -53,7 +54,20 @@ google::rpc::Status ToStatusProto(const absl::Status& status) {
   proto.set_code(static_cast<int>(status.code()));
   if (status.ok()) return proto;
   proto.set_message(Cut(std::string(status.message())));
-  proto.add_details()->PackFrom(MakeErrorInfo(status));
+  const google::rpc::ErrorInfo info = MakeErrorInfo(status);
+  proto.add_details()->PackFrom(info);
+  if (info.reason() == "FIELD_INVALID") {
+    google::rpc::BadRequest request;
+    auto* violation = request.add_field_violations();
+    violation->set_field(info.metadata().at("where"));
+    violation->set_description(info.metadata().at("message"));
+    proto.add_details()->PackFrom(request);
+  }
+  if (absl::IsUnavailable(status)) {
+    google::rpc::RetryInfo retry;
+    retry.mutable_retry_delay()->set_seconds(kRetrySeconds);
+    proto.add_details()->PackFrom(retry);
+  }
   if (auto payload = status.GetPayload(kMissingBlobs); payload.has_value()) {
     google::rpc::PreconditionFailure failure;
     failure.ParseFromString(std::string(*payload));

@@ -24,9 +24,8 @@ void TaskPool::Work() {
     std::function<void()> task;
     {
       absl::MutexLock lock(&mutex_);
-      auto ready = [this]() ABSL_SHARED_LOCKS_REQUIRED(mutex_) {
-        return stopping_ || !tasks_.empty();
-      };
+      auto ready = [this]()
+                       ABSL_SHARED_LOCKS_REQUIRED(mutex_) { return stopping_ || !tasks_.empty(); };
       mutex_.Await(absl::Condition(&ready));
       if (tasks_.empty()) return;
       task = std::move(tasks_.front());

@@ -1,5 +1,5 @@
-// A few threads for what would keep gRPC's own threads from answering heartbeats: parsing, planning,
-// hashing, fsync.
+// A few threads for what would keep gRPC's own threads from answering heartbeats: parsing,
+// planning, hashing, fsync.
 #pragma once
 
 #include <deque>

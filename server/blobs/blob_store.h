@@ -39,8 +39,8 @@ class BlobStore {
 
   // What has arrived of a blob so far, to go on with. Requires: at most one at a time for a digest.
   virtual absl::StatusOr<std::unique_ptr<PartialBlob>> OpenPartial(const std::string& sha256) = 0;
-  // Makes a whole partial blob a stored one. INVALID_ARGUMENT (DIGEST_MISMATCH) where its bytes have
-  // another digest; it is dropped then.
+  // Makes a whole partial blob a stored one. INVALID_ARGUMENT (DIGEST_MISMATCH) where its bytes
+  // have another digest; it is dropped then.
   virtual absl::Status Commit(std::unique_ptr<PartialBlob> partial, const std::string& sha256) = 0;
   // Forgets what has arrived of a blob. Requires: no PartialBlob of it is open.
   virtual void DropPartial(const std::string& sha256) = 0;
@@ -49,8 +49,8 @@ class BlobStore {
 // Keeps everything in memory, partial blobs included, up to `max_bytes` in all.
 std::unique_ptr<BlobStore> MakeMemoryBlobStore(int64_t max_bytes);
 
-// Keeps blobs as `folder`/blobs/DIGEST and partial ones as `folder`/partial/DIGEST, where a restarted
-// server finds both. Bytes are hashed again when they are first read.
+// Keeps blobs as `folder`/blobs/DIGEST and partial ones as `folder`/partial/DIGEST, where a
+// restarted server finds both. Bytes are hashed again when they are first read.
 absl::StatusOr<std::unique_ptr<BlobStore>> MakeDirectoryBlobStore(const std::string& folder);
 
 absl::Status BlobNotFound(const std::string& sha256);

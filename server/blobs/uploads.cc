@@ -2,16 +2,19 @@
 
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
+#include "server/base/status_proto.h"
 
 namespace lambert::server {
 namespace {
 
 absl::Status OffsetMismatch(const std::string& sha256, int64_t offset, int64_t committed) {
-  return MakeError(absl::StatusCode::kInvalidArgument,
-                   {"OFFSET_MISMATCH", "blobs/" + sha256,
-                    "a piece begins at byte " + std::to_string(offset) + " where " +
-                        std::to_string(committed) + " bytes have arrived",
-                    "ask GetBlobUpload where to go on"});
+  absl::Status status = MakeError(absl::StatusCode::kInvalidArgument,
+                                  {"OFFSET_MISMATCH", "blobs/" + sha256,
+                                   "a piece begins at byte " + std::to_string(offset) + " where " +
+                                       std::to_string(committed) + " bytes have arrived",
+                                   "go on there"});
+  AddMetadata(status, "committedSizeBytes", std::to_string(committed));
+  return status;
 }
 
 }  // namespace
@@ -82,10 +85,11 @@ absl::StatusOr<int64_t> Uploads::Write(const std::string& sha256, int64_t size_b
                                        int64_t offset_bytes, absl::string_view data) {
   if (absl::Status status = Check(sha256, size_bytes); !status.ok()) return status;
   if (store_->Has(sha256)) return size_bytes;
-  if (offset_bytes < 0 || offset_bytes + static_cast<int64_t>(data.size()) > size_bytes) {
-    return OffsetMismatch(sha256, offset_bytes, size_bytes);
-  }
   if (absl::Status status = Open(sha256); !status.ok()) return status;
+  if (offset_bytes < 0 || static_cast<int64_t>(data.size()) > size_bytes - offset_bytes) {
+    absl::StatusOr<int64_t> committed = CommittedSize(sha256, size_bytes);
+    return OffsetMismatch(sha256, offset_bytes, committed.value_or(0));
+  }
   absl::StatusOr<std::unique_ptr<PartialBlob>> partial = Take(sha256, offset_bytes);
   if (!partial.ok()) return partial.status();
 

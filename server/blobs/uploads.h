@@ -44,7 +44,8 @@ class Uploads {
   };
   absl::Status Check(const std::string& sha256, int64_t size_bytes) const;
   // Takes the partial blob out of its entry, for use without the lock.
-  absl::StatusOr<std::unique_ptr<PartialBlob>> Take(const std::string& sha256, int64_t offset_bytes);
+  absl::StatusOr<std::unique_ptr<PartialBlob>> Take(const std::string& sha256,
+                                                    int64_t offset_bytes);
   absl::Status Open(const std::string& sha256);
   void DropOldest();
   void Drop(const std::function<bool(const Entry&)>& is_dropped);

@@ -40,9 +40,9 @@ absl::StatusOr<std::string> ChooseId(const v1::CreateSolveJobRequest& request) {
                       "use up to 63 of a-z, 0-9 and -, a letter first and no - last"});
   }
   if (request.request_id().size() > kMaxRequestIdLength) {
-    return MakeError(absl::StatusCode::kInvalidArgument,
-                     {"FIELD_INVALID", "request_id", "is longer than 128 characters",
-                      "use a random UUID"});
+    return MakeError(
+        absl::StatusCode::kInvalidArgument,
+        {"FIELD_INVALID", "request_id", "is longer than 128 characters", "use a random UUID"});
   }
   std::random_device random;
   std::string seed = request.request_id();
@@ -114,10 +114,10 @@ absl::StatusOr<JobStore::Created> JobStore::Create(const v1::CreateSolveJobReque
     const auto waiting = std::count_if(jobs_.begin(), jobs_.end(),
                                        [](const auto& entry) { return !entry.second->ended(); });
     if (waiting >= max_waiting_) {
-      return MakeError(absl::StatusCode::kResourceExhausted,
-                       {"TOO_MANY_JOBS", record.name(),
-                        std::to_string(waiting) + " jobs have not ended yet",
-                        "wait for some, or cancel them"});
+      return MakeError(
+          absl::StatusCode::kResourceExhausted,
+          {"TOO_MANY_JOBS", record.name(), std::to_string(waiting) + " jobs have not ended yet",
+           "wait for some, or cancel them"});
     }
     jobs_[record.name()] = job;
   }

@@ -22,16 +22,16 @@ class JobStore {
   // `max_waiting`: jobs that have not ended, > 0; more: TOO_MANY_JOBS.
   JobStore(BlobRefs* refs, RecordStore* records, int max_waiting);
 
-  // Finds the jobs of an earlier run again; returns those that have not ended, queued. Call it before
-  // anything else.
+  // Finds the jobs of an earlier run again; returns those that have not ended, queued. Call it
+  // before anything else.
   absl::StatusOr<std::vector<std::shared_ptr<Job>>> Restore();
 
   struct Created {
     std::shared_ptr<Job> job;
     bool is_new = false;
   };
-  // Makes a queued job, or finds the one that the same request made. Requires: the scene is there and
-  // the spec valid. FIELD_INVALID, JOB_ID_TAKEN, TOO_MANY_JOBS, STORE_FULL.
+  // Makes a queued job, or finds the one that the same request made. Requires: the scene is there
+  // and the spec valid. FIELD_INVALID, JOB_ID_TAKEN, TOO_MANY_JOBS, STORE_FULL.
   absl::StatusOr<Created> Create(const v1::CreateSolveJobRequest& request,
                                  const std::string& scene_display_name,
                                  const std::string& unit_version);

@@ -107,11 +107,16 @@ v1::Warning EncodeWarning(const Warning& warning) {
 
 v1::SolveJob::StopReason EncodeStopReason(StopReason reason) {
   switch (reason) {
-    case StopReason::kNone: return v1::SolveJob::STOP_REASON_UNSPECIFIED;
-    case StopReason::kErrorReached: return v1::SolveJob::STOP_REASON_ERROR_REACHED;
-    case StopReason::kRaysSpent: return v1::SolveJob::STOP_REASON_RAYS_SPENT;
-    case StopReason::kTimeSpent: return v1::SolveJob::STOP_REASON_TIME_SPENT;
-    case StopReason::kNothingToShoot: return v1::SolveJob::STOP_REASON_NOTHING_TO_SHOOT;
+    case StopReason::kNone:
+      return v1::SolveJob::STOP_REASON_UNSPECIFIED;
+    case StopReason::kErrorReached:
+      return v1::SolveJob::STOP_REASON_ERROR_REACHED;
+    case StopReason::kRaysSpent:
+      return v1::SolveJob::STOP_REASON_RAYS_SPENT;
+    case StopReason::kTimeSpent:
+      return v1::SolveJob::STOP_REASON_TIME_SPENT;
+    case StopReason::kNothingToShoot:
+      return v1::SolveJob::STOP_REASON_NOTHING_TO_SHOOT;
   }
   return v1::SolveJob::STOP_REASON_UNSPECIFIED;
 }

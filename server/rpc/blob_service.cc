@@ -64,9 +64,9 @@ class DownloadReactor : public grpc::ServerWriteReactor<v1::DownloadBlobResponse
     if (!blob.ok()) {
       Finish(ToGrpc(blob.status()));
     } else if (offset_bytes < 0 || offset_bytes > static_cast<int64_t>((*blob)->bytes().size())) {
-      Finish(ToGrpc(MakeError(absl::StatusCode::kInvalidArgument,
-                              {"OFFSET_MISMATCH", "offset_bytes", "lies outside the blob",
-                               "begin at 0"})));
+      Finish(ToGrpc(
+          MakeError(absl::StatusCode::kInvalidArgument,
+                    {"OFFSET_MISMATCH", "offset_bytes", "lies outside the blob", "begin at 0"})));
     } else {
       blob_ = *std::move(blob);
       offset_ = static_cast<size_t>(offset_bytes);

@@ -1,4 +1,5 @@
-// The gRPC services of a coordinator, each in its own file. A handler decodes, makes one call, encodes.
+// The gRPC services of a coordinator, each in its own file. A handler decodes, makes one call,
+// encodes.
 #pragma once
 
 #include <grpcpp/impl/service_type.h>

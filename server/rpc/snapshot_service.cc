@@ -18,8 +18,8 @@ namespace {
 constexpr char kSnapshots[] = "/snapshots/";
 
 absl::Status SnapshotNotFound(const std::string& name) {
-  return MakeError(absl::StatusCode::kNotFound, {"SNAPSHOT_NOT_FOUND", name,
-                                                 "there is no such snapshot", "ask for latest"});
+  return MakeError(absl::StatusCode::kNotFound,
+                   {"SNAPSHOT_NOT_FOUND", name, "there is no such snapshot", "ask for latest"});
 }
 
 // One watcher. At most one write is under way; news that comes meanwhile waits in the job, where

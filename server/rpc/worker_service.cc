@@ -18,7 +18,6 @@ namespace w1 = ::lambert::worker::v1;
 using google::protobuf::util::TimeUtil;
 
 constexpr char kJobPrefix[] = "solveJobs/";
-constexpr int64_t kMaxResultBytes = int64_t{1} << 30;
 
 google::protobuf::Duration ToProto(Duration duration) {
   return TimeUtil::NanosecondsToDuration(
@@ -39,17 +38,29 @@ w1::Lease Encode(const GrantedLease& granted) {
   return lease;
 }
 
+w1::SubmitUnitResultResponse::Outcome Encode(SubmitOutcome outcome) {
+  switch (outcome) {
+    case SubmitOutcome::kAccepted:
+      return w1::SubmitUnitResultResponse::OUTCOME_ACCEPTED;
+    case SubmitOutcome::kDuplicate:
+      return w1::SubmitUnitResultResponse::OUTCOME_DUPLICATE;
+    case SubmitOutcome::kObsolete:
+      return w1::SubmitUnitResultResponse::OUTCOME_OBSOLETE;
+  }
+  return w1::SubmitUnitResultResponse::OUTCOME_UNSPECIFIED;
+}
+
 SyncRequest Decode(const w1::SyncWorkerSessionRequest& request) {
   SyncRequest decoded{request.name(), request.sequence(), {}, request.draining()};
   for (const w1::LeaseReport& report : request.reports()) {
-    decoded.reports.push_back({report.lease(), report.state() == w1::LeaseReport::STATE_FAILED,
-                               report.error_message()});
+    decoded.reports.push_back(
+        {report.lease(), report.state() == w1::LeaseReport::STATE_FAILED, report.error_message()});
   }
   return decoded;
 }
 
-// A sync that may be held. Finishes exactly once: when the table answers, which it also does when the
-// worker has gone.
+// A sync that may be held. Finishes exactly once: when the table answers, which it also does when
+// the worker has gone.
 class SyncReactor : public grpc::ServerUnaryReactor {
  public:
   SyncReactor(WorkTable* work, const w1::SyncWorkerSessionRequest& request,
@@ -82,57 +93,44 @@ class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest
     StartRead(&request_);
   }
   void OnReadDone(bool ok) override {
-    if (!ok) return Finish(ToGrpc(Submit()));
-    if (is_first_) TakeHeader();
-    is_first_ = false;
-    if (bytes_.size() + request_.data().size() > static_cast<size_t>(size_bytes_)) {
-      return Finish(ToGrpc(Invalid("data", "is larger than its digest says or than 1 GiB")));
+    if (!ok) return Finish(ToGrpc(IsWhole() ? Submit() : Mismatch()));
+    if (is_first_) {
+      TakeHeader();
+      // Nobody needs the rest of a result whose step is over.
+      if (max_bytes_ == 0) return Finish(ToGrpc(Submit()));
     }
-    bytes_ += request_.data();
+    submission_.bytes += request_.data();
+    if (static_cast<int64_t>(submission_.bytes.size()) > max_bytes_) {
+      return Finish(ToGrpc(Mismatch()));
+    }
     StartRead(&request_);
   }
   void OnDone() override { delete this; }
 
  private:
-  static absl::Status Invalid(const std::string& field, const std::string& what) {
-    return MakeError(absl::StatusCode::kInvalidArgument,
-                     {"FIELD_INVALID", field, what, "use programs of one version"});
-  }
   void TakeHeader() {
+    is_first_ = false;
     submission_.lease = request_.lease();
     const std::string& job = request_.unit_key().solve_job();
-    submission_.job = job.substr(0, sizeof(kJobPrefix) - 1) == kJobPrefix
-                          ? job.substr(sizeof(kJobPrefix) - 1)
-                          : "";
+    if (job.rfind(kJobPrefix, 0) == 0) submission_.job = job.substr(sizeof(kJobPrefix) - 1);
     submission_.step_number = request_.unit_key().step_number();
     submission_.unit = request_.unit_key().unit_index();
     submission_.digest = request_.result_digest().sha256();
     submission_.cpu_seconds = request_.cpu_seconds();
-    size_bytes_ = request_.result_digest().size_bytes();
-    if (size_bytes_ < 0 || size_bytes_ > kMaxResultBytes) size_bytes_ = 0;
+    submission_.run_seconds = request_.run_seconds();
+    max_bytes_ = work_->MaxResultBytes(submission_.job, submission_.step_number);
+  }
+  bool IsWhole() const { return !is_first_ && Sha256Hex(submission_.bytes) == submission_.digest; }
+  absl::Status Mismatch() const {
+    return MakeError(
+        absl::StatusCode::kInvalidArgument,
+        {"DIGEST_MISMATCH", submission_.lease,
+         "the result that arrived is not the one that was announced", "send it again"});
   }
   absl::Status Submit() {
-    if (is_first_ || static_cast<int64_t>(bytes_.size()) != size_bytes_ ||
-        Sha256Hex(bytes_) != submission_.digest) {
-      return MakeError(absl::StatusCode::kInvalidArgument,
-                       {"DIGEST_MISMATCH", submission_.lease,
-                        "the result that arrived is not the one that was announced",
-                        "send it again"});
-    }
-    submission_.bytes = std::move(bytes_);
     absl::StatusOr<SubmitOutcome> outcome = work_->Submit(submission_);
     if (!outcome.ok()) return outcome.status();
-    switch (*outcome) {
-      case SubmitOutcome::kAccepted:
-        response_->set_outcome(w1::SubmitUnitResultResponse::OUTCOME_ACCEPTED);
-        break;
-      case SubmitOutcome::kDuplicate:
-        response_->set_outcome(w1::SubmitUnitResultResponse::OUTCOME_DUPLICATE);
-        break;
-      case SubmitOutcome::kObsolete:
-        response_->set_outcome(w1::SubmitUnitResultResponse::OUTCOME_OBSOLETE);
-        break;
-    }
+    response_->set_outcome(Encode(*outcome));
     return absl::OkStatus();
   }
 
@@ -140,8 +138,7 @@ class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest
   w1::SubmitUnitResultResponse* const response_;
   w1::SubmitUnitResultRequest request_;
   Submission submission_;
-  std::string bytes_;
-  int64_t size_bytes_ = 0;
+  int64_t max_bytes_ = 0;
   bool is_first_ = true;
 };
 

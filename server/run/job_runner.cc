@@ -100,9 +100,8 @@ absl::Status JobRunner::RunPasses(Job& job, Solver& solver, StepExecutor& execut
   double published_at_s = 0, cost_s = 0;
   absl::Status status;
   while (status.ok() && solver.stop_reason() == StopReason::kNone) {
-    status = solver.RunPass(executor, [&](const Progress& progress) {
-      job.SetProgress(EncodeProgress(progress));
-    });
+    status = solver.RunPass(
+        executor, [&](const Progress& progress) { job.SetProgress(EncodeProgress(progress)); });
     const double now_s = ToSeconds(parts_.clock().time_since_epoch());
     is_published = false;
     if (!status.ok() || (cost_s > 0 && now_s - published_at_s < kPublishCostFactor * cost_s)) {
@@ -170,8 +169,9 @@ void JobRunner::Finish(Job& job, const absl::Status& status) {
   parts_.log(job.name() + " " + v1::SolveJob::State_Name(record.state()) + " after " +
              std::to_string(record.progress().ray_count()) + " rays" +
              (status.ok() ? "" : ": " + std::string(status.message())) +
-             (saved.ok() ? "" : " (its record could not be written: " +
-                                    std::string(saved.message()) + ")"));
+             (saved.ok()
+                  ? ""
+                  : " (its record could not be written: " + std::string(saved.message()) + ")"));
 }
 
 }  // namespace lambert::server

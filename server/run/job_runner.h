@@ -38,8 +38,8 @@ class JobRunner {
  public:
   explicit JobRunner(RunnerParts parts) : parts_(std::move(parts)) {}
 
-  // Blocks until the job has ended, or the server is shutting down: the job then stays as it is, to be
-  // gone on with from its last checkpoint. Never throws.
+  // Blocks until the job has ended, or the server is shutting down: the job then stays as it is, to
+  // be gone on with from its last checkpoint. Never throws.
   void Run(Job& job);
 
  private:

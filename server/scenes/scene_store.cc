@@ -41,7 +41,8 @@ absl::StatusOr<v1::Scene> MakeScene(const v1::CreateSceneRequest& request) {
   v1::Scene scene;
   std::string manifest;
   for (const v1::SceneFile& file : files) {
-    if (file.uri().empty() || file.uri().find_first_of(std::string("\0\n", 2)) != std::string::npos) {
+    if (file.uri().empty() ||
+        file.uri().find_first_of(std::string("\0\n", 2)) != std::string::npos) {
       return FieldInvalid("files.uri", "is empty or has a line break", "name every file");
     }
     if (!IsSha256Hex(file.digest().sha256()) || file.digest().size_bytes() < 0) {
@@ -100,9 +101,10 @@ absl::StatusOr<v1::Scene> SceneStore::Create(const v1::CreateSceneRequest& reque
 }
 
 absl::Status SceneStore::CheckBlobs(const v1::Scene& scene) const {
-  absl::Status missing = MakeError(absl::StatusCode::kFailedPrecondition,
-                                   {"BLOBS_MISSING", scene.display_name(),
-                                    "files of the scene are not on the server", "upload them first"});
+  absl::Status missing =
+      MakeError(absl::StatusCode::kFailedPrecondition,
+                {"BLOBS_MISSING", scene.display_name(), "files of the scene are not on the server",
+                 "upload them first"});
   bool is_complete = true;
   for (const v1::SceneFile& file : scene.files()) {
     if (blobs_->Has(file.digest().sha256())) continue;
@@ -173,8 +175,9 @@ absl::StatusOr<Scene> SceneStore::Parse(const v1::Scene& scene) const {
   try {
     return LoadGltf(bundle, limits_);
   } catch (const std::exception& error) {  // memory exhausted, at the worst
-    return MakeError(absl::StatusCode::kResourceExhausted,
-                     {"SCENE_TOO_LARGE", scene.display_name(), error.what(), "make the scene smaller"});
+    return MakeError(
+        absl::StatusCode::kResourceExhausted,
+        {"SCENE_TOO_LARGE", scene.display_name(), error.what(), "make the scene smaller"});
   }
 }
 

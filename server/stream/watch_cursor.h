@@ -11,8 +11,8 @@
 
 namespace lambert::server {
 
-// One thread at a time. It holds at most the one payload that is being sent, so a slow watcher costs
-// no more than that and gets the newest snapshot next.
+// One thread at a time. It holds at most the one payload that is being sent, so a slow watcher
+// costs no more than that and gets the newest snapshot next.
 class WatchCursor {
  public:
   WatchCursor(std::shared_ptr<Job> job, BlobStore* blobs, const v1::WatchSnapshotsRequest& request);

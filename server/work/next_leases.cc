@@ -99,9 +99,8 @@ int FreeSlotsElsewhere(const WorkState& state) {
 
 void FillSlots(std::vector<Taker>& takers, OpenWork& open, std::vector<Grant>& grants) {
   while (open.count() > 0) {
-    auto taker = std::max_element(takers.begin(), takers.end(), [](const Taker& a, const Taker& b) {
-      return a.share < b.share;
-    });
+    auto taker = std::max_element(takers.begin(), takers.end(),
+                                  [](const Taker& a, const Taker& b) { return a.share < b.share; });
     if (taker == takers.end() || taker->free <= 0) return;
     grants.push_back(open.TakeFor(*taker->name));
     --taker->free;

@@ -20,7 +20,8 @@ struct Grant {
 //  1. Open work fills free slots, the emptiest worker first, jobs in turn. A new unit takes half of
 //     its share of the grains that are left, so units get smaller towards the end of a step and all
 //     workers end together (guided self-scheduling).
-//  2. What is still open is granted ahead, one unit a worker beyond its slots, so that the next unit
+//  2. What is still open is granted ahead, one unit a worker beyond its slots, so that the next
+//  unit
 //     lies there when one ends; but never a unit for which somebody else has a free slot.
 //  3. With nothing open, free slots repeat units that are late (their worker may be frozen), the
 //     oldest first, never one that the same worker holds.

@@ -25,8 +25,7 @@ absl::StatusOr<UnitResult> PublishedStep::Check(int first_grain, int grain_count
       result.ok() ? CheckLedger(Unit(first_grain, grain_count), *result) : result.status();
   if (status.ok()) return result;
   return MakeError(absl::StatusCode::kInvalidArgument,
-                   {"RESULT_INVALID",
-                    "worker " + worker + ", a unit of " + setup_.job,
+                   {"RESULT_INVALID", "worker " + worker + ", a unit of " + setup_.job,
                     std::string(status.message()), "check that machine's memory and programs"});
 }
 

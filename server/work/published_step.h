@@ -13,11 +13,11 @@ namespace lambert::server {
 
 // What all units of a job have in common.
 struct WorkSetup {
-  std::string job;                // id
+  std::string job;  // id
   std::string patch_set_sha256;
   int64_t patch_set_bytes = 0;
   PatchIndex patch_count = 0;
-  std::string shoot_options;      // EncodeShootOptions
+  std::string shoot_options;  // EncodeShootOptions
 };
 
 // Thread safe.

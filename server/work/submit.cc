@@ -5,11 +5,26 @@
 #include "server/work/work_table.h"
 
 namespace lambert::server {
+namespace {
 
-std::shared_ptr<PublishedStep> WorkTable::FindStep(const Submission& submission) const {
-  auto step = steps_.find(submission.job);
-  if (step == steps_.end() || step->second->number() != submission.step_number) return nullptr;
+// Above what docs/formats.md gives a unit result.
+constexpr int64_t kMaxResultHeaderBytes = 1024;
+constexpr int64_t kMaxDepositBytes = 64;
+
+}  // namespace
+
+std::shared_ptr<PublishedStep> WorkTable::FindStep(const std::string& job,
+                                                   int64_t step_number) const {
+  auto step = steps_.find(job);
+  if (step == steps_.end() || step->second->number() != step_number) return nullptr;
   return step->second;
+}
+
+int64_t WorkTable::MaxResultBytes(const std::string& job, int64_t step_number) const {
+  absl::MutexLock lock(&mutex_);
+  std::shared_ptr<PublishedStep> step = FindStep(job, step_number);
+  if (step == nullptr) return 0;
+  return kMaxResultHeaderBytes + kMaxDepositBytes * step->setup().patch_count;
 }
 
 std::string WorkTable::WorkerOf(const std::string& lease) const {
@@ -22,12 +37,12 @@ absl::StatusOr<SubmitOutcome> WorkTable::Repeated(const Submission& submission,
                                                   const std::string& worker, PublishedStep& step) {
   const UnitState& unit = state_.steps.at(submission.job).units[submission.unit];
   if (unit.result_digest == submission.digest) return SubmitOutcome::kDuplicate;
-  absl::Status status = MakeError(
-      absl::StatusCode::kDataLoss,
-      {"NONDETERMINISTIC_RESULT",
-       "unit " + std::to_string(submission.unit) + " of " + submission.job,
-       "workers " + unit.result_worker + " and " + worker + " computed different results",
-       "take the faulty one of these machines out of service and solve again"});
+  absl::Status status =
+      MakeError(absl::StatusCode::kDataLoss,
+                {"NONDETERMINISTIC_RESULT",
+                 "unit " + std::to_string(submission.unit) + " of " + submission.job,
+                 "workers " + unit.result_worker + " and " + worker + " computed different results",
+                 "take the faulty one of these machines out of service and solve again"});
   step.Abort(status);
   return status;
 }
@@ -39,7 +54,7 @@ absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
   int first_grain = 0, grain_count = 0;
   {
     absl::MutexLock lock(&mutex_);
-    step = FindStep(submission);
+    step = FindStep(submission.job, submission.step_number);
     worker = WorkerOf(submission.lease);
     if (step != nullptr) {
       const std::vector<UnitState>& units = state_.steps.at(submission.job).units;
@@ -61,7 +76,8 @@ absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
   Calls calls;
   {
     absl::MutexLock lock(&mutex_);
-    const bool is_current = step != nullptr && FindStep(submission) == step;
+    const bool is_current =
+        step != nullptr && FindStep(submission.job, submission.step_number) == step;
     if (!result.ok()) {
       FailLease(submission.lease, std::string(result.status().message()));
       outcome = result.status();
@@ -69,7 +85,7 @@ absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
       outcome = Repeated(submission, worker, *step);
     } else if (is_current) {
       FinishUnit(state_, {submission.job, submission.unit}, submission.digest, worker,
-                 submission.cpu_seconds);
+                 submission.run_seconds);
       outcome = SubmitOutcome::kAccepted;
     }
     if (auto lease = state_.leases.find(submission.lease); lease != state_.leases.end()) {

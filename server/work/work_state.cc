@@ -1,5 +1,6 @@
 #include "server/work/work_state.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lambert::server {
@@ -7,6 +8,8 @@ namespace {
 
 // Weight of the newest unit in a job's pace: the mean of about the last eight.
 constexpr double kPaceWeight = 0.125;
+// A worker that was frozen for a while must not make all others look slow.
+constexpr double kMaxPaceRatio = 4;
 
 void RevokeAll(WorkState& state, UnitState& unit) {
   for (const std::string& lease : unit.leases) state.leases.at(lease).revoked = true;
@@ -67,7 +70,7 @@ void RemoveLease(WorkState& state, const std::string& lease, bool failed) {
 }
 
 void FinishUnit(WorkState& state, const UnitRef& ref, const std::string& digest,
-                const std::string& worker, double cpu_seconds) {
+                const std::string& worker, double run_seconds) {
   StepState& step = state.steps.at(ref.job);
   UnitState& unit = step.units[ref.unit];
   unit.done = true;
@@ -76,10 +79,11 @@ void FinishUnit(WorkState& state, const UnitRef& ref, const std::string& digest,
   RevokeAll(state, unit);
   step.leased.erase(ref.unit);
   std::erase(step.open, ref.unit);
-  if (unit.rays <= 0 || !std::isfinite(cpu_seconds)) return;
-  const double pace = cpu_seconds / static_cast<double>(unit.rays);
+  if (unit.rays <= 0 || !(run_seconds > 0) || !std::isfinite(run_seconds)) return;
+  const double pace = run_seconds / static_cast<double>(unit.rays);
   auto [known, is_new] = state.seconds_per_ray.try_emplace(ref.job, pace);
-  if (!is_new) known->second += kPaceWeight * (pace - known->second);
+  const double believed = std::min(pace, kMaxPaceRatio * known->second);
+  if (!is_new) known->second += kPaceWeight * (believed - known->second);
 }
 
 }  // namespace lambert::server

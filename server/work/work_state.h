@@ -14,18 +14,20 @@
 namespace lambert::server {
 
 struct WorkOptions {
-  Duration sync_interval = std::chrono::seconds(2);      // longest hold of a worker's sync, > 0
-  Duration session_expiry = std::chrono::seconds(10);    // silence that ends a session, > sync_interval
+  Duration sync_interval = std::chrono::seconds(2);  // longest hold of a worker's sync, > 0
+  Duration session_expiry =
+      std::chrono::seconds(10);  // silence that ends a session, > sync_interval
   Duration straggler_floor = std::chrono::milliseconds(100);  // no unit is late before that
-  Duration straggler_unknown = std::chrono::seconds(1);  // ... nor before that, its job's pace unknown
-  double straggler_factor = 2;  // a unit is late after this many times its expected time, >= 1
-  int max_attempts = 5;         // leases of one unit that may end without a result, > 0
+  Duration straggler_unknown =
+      std::chrono::seconds(1);      // ... nor before that, its job's pace unknown
+  double straggler_factor = 2;      // a unit is late after this many times its expected time, >= 1
+  int max_attempts = 5;             // leases of one unit that may end without a result, > 0
   int64_t max_unit_rays = 1 << 21;  // about half a second: grains are lent together up to that, > 0
 };
 
-// What is lent: some of the work units that the solver cut, one after the other. Those are small, so
-// that a dozen workers are kept busy; a few workers get many at once, and send one result for all.
-// The solver's units are called grains here.
+// What is lent: some of the work units that the solver cut, one after the other. Those are small,
+// so that a dozen workers are kept busy; a few workers get many at once, and send one result for
+// all. The solver's units are called grains here.
 //
 // A unit of a published step. A job has at most one step at a time, so the job's id names the step.
 struct UnitRef {
@@ -39,14 +41,15 @@ struct LeaseState {
   int64_t step_number = 0;
   std::string session;
   TimePoint granted;
-  bool revoked = false;  // nobody needs its result; it fills a slot until its worker reports or sends
-  bool told = false;     // its worker was told that it is revoked
+  bool revoked =
+      false;          // nobody needs its result; it fills a slot until its worker reports or sends
+  bool told = false;  // its worker was told that it is revoked
 };
 
 struct UnitState {
   int first_grain = 0, grain_count = 0;
   bool done = false;
-  int attempts = 0;              // leases that ended without a result
+  int attempts = 0;  // leases that ended without a result
   int64_t rays = 0;
   std::set<std::string> leases;  // names of those that run or wait, none of them revoked
   std::string result_digest;     // once done
@@ -56,28 +59,28 @@ struct UnitState {
 struct StepState {
   int64_t number = 0;
   std::vector<int64_t> grain_rays;  // by grain
-  int next_grain = 0;            // grains from here on are in no unit yet
-  std::vector<UnitState> units;  // that were lent so far
-  std::deque<int> open;          // units that are neither done nor leased any more, next first
-  std::set<int> leased;          // units that are leased and not done
+  int next_grain = 0;               // grains from here on are in no unit yet
+  std::vector<UnitState> units;     // that were lent so far
+  std::deque<int> open;             // units that are neither done nor leased any more, next first
+  std::set<int> leased;             // units that are leased and not done
 };
 
 struct SessionState {
   std::string worker_id;
   int slots = 1;
   bool draining = false;
-  bool waiting = false;           // a sync is held: leases can be granted now
-  TimePoint last_seen;            // when its last sync began
-  std::set<std::string> leases;   // names
+  bool waiting = false;          // a sync is held: leases can be granted now
+  TimePoint last_seen;           // when its last sync began
+  std::set<std::string> leases;  // names
   int64_t finished_units = 0;
 
   int FreeSlots() const { return slots - static_cast<int>(leases.size()); }
 };
 
 struct WorkState {
-  std::map<std::string, StepState> steps;        // by job id
-  std::map<std::string, SessionState> sessions;  // by name
-  std::map<std::string, LeaseState> leases;      // by name
+  std::map<std::string, StepState> steps;         // by job id
+  std::map<std::string, SessionState> sessions;   // by name
+  std::map<std::string, LeaseState> leases;       // by name
   std::map<std::string, double> seconds_per_ray;  // by job id: measured pace of its units
 };
 
@@ -102,6 +105,6 @@ void RemoveLease(WorkState& state, const std::string& lease, bool failed);
 
 // Marks a unit done, revokes its leases and learns the job's pace. Requires: the unit is not done.
 void FinishUnit(WorkState& state, const UnitRef& unit, const std::string& digest,
-                const std::string& worker, double cpu_seconds);
+                const std::string& worker, double run_seconds);
 
 }  // namespace lambert::server

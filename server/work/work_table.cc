@@ -17,16 +17,15 @@ absl::Status ShuttingDown() {
 }
 
 absl::Status SessionNotFound(const std::string& session) {
-  return MakeError(absl::StatusCode::kNotFound, {"SESSION_NOT_FOUND", session,
-                                                 "there is no such session", "open a new one"});
+  return MakeError(absl::StatusCode::kNotFound,
+                   {"SESSION_NOT_FOUND", session, "there is no such session", "open a new one"});
 }
 
 absl::Status SequenceStale(const SyncRequest& request, int64_t newest) {
-  return MakeError(absl::StatusCode::kAborted,
-                   {"SEQUENCE_STALE", request.session,
-                    "sequence " + std::to_string(request.sequence) + " came after " +
-                        std::to_string(newest),
-                    "go on with the newest"});
+  return MakeError(absl::StatusCode::kAborted, {"SEQUENCE_STALE", request.session,
+                                                "sequence " + std::to_string(request.sequence) +
+                                                    " came after " + std::to_string(newest),
+                                                "go on with the newest"});
 }
 
 absl::Status SyncReplaced(const SyncRequest& request) {

@@ -51,8 +51,8 @@ struct Submission {
   int64_t step_number = 0;
   int unit = 0;
   std::string digest;  // of `bytes`, checked
-  double cpu_seconds = 0;
-  std::string bytes;   // EncodeUnitResult
+  double cpu_seconds = 0, run_seconds = 0;
+  std::string bytes;  // EncodeUnitResult
 };
 
 enum class SubmitOutcome { kAccepted, kDuplicate, kObsolete };
@@ -85,12 +85,14 @@ class WorkTable {
   void CancelSync(const std::string& session, const void* call);
   // Reopens the session's leases, without counting an attempt.
   void CloseSession(const std::string& session);
+  // Most bytes that a result of this step may have; 0 where the step is over.
+  int64_t MaxResultBytes(const std::string& job, int64_t step_number) const;
   // RESULT_INVALID: refused, the unit opens again. NONDETERMINISTIC_RESULT: the job's step fails.
   absl::StatusOr<SubmitOutcome> Submit(const Submission& submission);
 
-  // Offers the grains of a step to workers. PublishedStep::Wait then ends with the merged result, or
-  // with UNIT_ATTEMPTS_EXHAUSTED, NONDETERMINISTIC_RESULT, SHUTTING_DOWN, or what AbortJob was given.
-  // Requires: at least one grain; the job's step before was withdrawn.
+  // Offers the grains of a step to workers. PublishedStep::Wait then ends with the merged result,
+  // or with UNIT_ATTEMPTS_EXHAUSTED, NONDETERMINISTIC_RESULT, SHUTTING_DOWN, or what AbortJob was
+  // given. Requires: at least one grain; the job's step before was withdrawn.
   absl::StatusOr<std::shared_ptr<PublishedStep>> Publish(const WorkSetup& setup,
                                                          const std::vector<WorkUnit>& grains);
   // Takes the job's step away; results that still come are obsolete.
@@ -99,7 +101,8 @@ class WorkTable {
   void AbortJob(const std::string& job, const absl::Status& status);
   void ForgetJob(const std::string& job);
 
-  // Ends silent sessions, answers calls held long enough, repeats late units. Call it often (50 ms).
+  // Ends silent sessions, answers calls held long enough, repeats late units. Call it often (50
+  // ms).
   void Tick();
   // Ends every step and every held call; later calls fail.
   void Shutdown();
@@ -110,10 +113,10 @@ class WorkTable {
   // A session's calls, beside its SessionState.
   struct Exchange {
     int64_t sequence = 0;
-    SyncDone held;              // null: none
+    SyncDone held;  // null: none
     const void* held_call = nullptr;
     TimePoint answer_by;
-    bool answered = false;      // `reply` answered `sequence`
+    bool answered = false;  // `reply` answered `sequence`
     SyncReply reply;
     std::vector<std::string> revoked;  // to be told
   };
@@ -131,7 +134,7 @@ class WorkTable {
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void TellRevoked() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // The step that a submission is for, or null where it is over.
-  std::shared_ptr<PublishedStep> FindStep(const Submission& submission) const
+  std::shared_ptr<PublishedStep> FindStep(const std::string& job, int64_t step_number) const
       ABSL_SHARED_LOCKS_REQUIRED(mutex_);
   std::string WorkerOf(const std::string& lease) const ABSL_SHARED_LOCKS_REQUIRED(mutex_);
   // What becomes of a result of a unit that is done already; fails the step where they differ.

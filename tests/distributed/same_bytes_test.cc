@@ -1,5 +1,5 @@
-// However many workers there are and whatever becomes of them, the solution has the bytes of the loop
-// that runs in one thread without a network.
+// However many workers there are and whatever becomes of them, the solution has the bytes of the
+// loop that runs in one thread without a network.
 #include <gtest/gtest.h>
 
 #include "local/local_service.h"
@@ -12,8 +12,8 @@
 namespace lambert {
 namespace {
 
-constexpr int kSquares = 4;                // 512 patches
-constexpr int64_t kRays = 3'000'000;       // about a second of one core
+constexpr int kSquares = 4;           // 512 patches
+constexpr int64_t kRays = 3'000'000;  // about a second of one core
 
 const std::string& ExpectedBytes() {
   static const std::string bytes = [] {

@@ -20,9 +20,8 @@ void AddUnits(WorkState& state, const std::string& job, int count) {
 }
 
 int GrantsOf(const std::vector<Grant>& grants, const std::string& session) {
-  return static_cast<int>(std::count_if(grants.begin(), grants.end(), [&](const Grant& grant) {
-    return grant.session == session;
-  }));
+  return static_cast<int>(std::count_if(
+      grants.begin(), grants.end(), [&](const Grant& grant) { return grant.session == session; }));
 }
 
 TEST(NextLeases, EqualViewsGiveEqualGrants) {

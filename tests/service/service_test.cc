@@ -83,8 +83,10 @@ TEST_F(Service, RefusesBadUploadsByName) {
   v1::Digest digest = DigestOf(bytes);
   EXPECT_EQ(Reason(Upload(digest, "some bytez")), "DIGEST_MISMATCH");
   EXPECT_EQ(Reason(Upload(digest, bytes, 3)), "OFFSET_MISMATCH");
-  EXPECT_EQ(Reason(Upload(DigestOf(std::string(2 << 20, 'x')), std::string(2 << 20, 'x'), 0, 2 << 20)),
-            "FIELD_INVALID");
+  EXPECT_EQ(ErrorInfoOf(Upload(digest, bytes, 3)).metadata().at("committedSizeBytes"), "0");
+  EXPECT_EQ(
+      Reason(Upload(DigestOf(std::string(2 << 20, 'x')), std::string(2 << 20, 'x'), 0, 2 << 20)),
+      "FIELD_INVALID");
   digest.set_sha256("../jobs/x");
   EXPECT_EQ(Reason(Upload(digest, bytes)), "FIELD_INVALID");
 }
@@ -124,7 +126,8 @@ TEST_F(Service, ARefusedSceneLeavesNothingBehind) {
   const google::rpc::ErrorInfo info = ErrorInfoOf(status);
   EXPECT_EQ(info.reason(), "SCENE_INVALID");
   EXPECT_EQ(info.domain(), "lambert");
-  for (const char* key : {"where", "message", "hint"}) EXPECT_NE(info.metadata().at(key), "") << key;
+  for (const char* key : {"where", "message", "hint"})
+    EXPECT_NE(info.metadata().at(key), "") << key;
   EXPECT_FALSE(coordinator_->blobs().Has(Sha256Hex(std::string("this is no scene"))));
   EXPECT_TRUE(coordinator_->scenes().List(0, "")->items.empty());
 }
@@ -135,8 +138,8 @@ TEST_F(Service, EqualScenesAreOneScene) {
   ASSERT_TRUE(CreateScene(glb, &first).ok());
   ASSERT_TRUE(CreateScene(glb, &second).ok());
   EXPECT_EQ(first.name(), second.name());
-  const std::string manifest = std::string("room.glb") + '\0' + Sha256Hex(glb) + '\0' +
-                               std::to_string(glb.size()) + '\n';
+  const std::string manifest =
+      std::string("room.glb") + '\0' + Sha256Hex(glb) + '\0' + std::to_string(glb.size()) + '\n';
   EXPECT_EQ(first.name(), "scenes/" + Sha256Hex(manifest));
 }
 
@@ -193,6 +196,19 @@ TEST_F(Service, RefusesBadJobsByName) {
   EXPECT_TRUE(coordinator_->jobs().All().empty());
 }
 
+TEST_F(Service, NamesTheFieldThatIsWrong) {
+  v1::ListScenesRequest request;
+  request.set_page_size(-1);
+  v1::ListScenesResponse response;
+  grpc::ClientContext context;
+  google::rpc::Status details;
+  ASSERT_TRUE(
+      details.ParseFromString(scenes()->ListScenes(&context, request, &response).error_details()));
+  google::rpc::BadRequest wrong;
+  ASSERT_TRUE(details.details(1).UnpackTo(&wrong));
+  EXPECT_EQ(wrong.field_violations(0).field(), "page_size");
+}
+
 TEST_F(Service, AJobWhosePatchesCannotBeBuiltFailsWithTheReason) {
   v1::Scene scene;
   ASSERT_TRUE(CreateScene(R"({"asset": {"version": "2.0"}})", &scene).ok());
@@ -242,15 +258,16 @@ TEST_F(Service, ACancelledJobKeepsTheBestSoFar) {
   EXPECT_TRUE(reader->Finish().ok());
   EXPECT_EQ(news.job_ended().state(), v1::SolveJob::STATE_CANCELLED);
   EXPECT_GE(news.job_ended().latest_snapshot().version(), 1);
-  EXPECT_TRUE(coordinator_->blobs().Has(
-      news.job_ended().latest_snapshot().payload_digest().sha256()));
+  EXPECT_TRUE(
+      coordinator_->blobs().Has(news.job_ended().latest_snapshot().payload_digest().sha256()));
 }
 
 TEST_F(Service, AFullStoreFailsTheJobAndKeepsItsLastSnapshot) {
   AddWorker();
   const Watched roomy = Watch(CreateJob(1'000'000).name());
   ASSERT_GE(roomy.ended.latest_snapshot().version(), 2);
-  server::CoordinatorOptions options;  // room for one snapshot beside scene and patches, not for two
+  server::CoordinatorOptions
+      options;  // room for one snapshot beside scene and patches, not for two
   options.max_store_bytes = static_cast<int64_t>(ToGlb(MakeCornell(2)).size()) +
                             roomy.ended.patch_set_digest().size_bytes() +
                             static_cast<int64_t>(roomy.payload.size()) * 3 / 2;

@@ -65,9 +65,10 @@ inline UnitResult MakeResult(int64_t hits = 4) {
 inline Submission MakeSubmission(const GrantedLease& lease, const UnitResult& result,
                                  double cpu_seconds = 0.01) {
   std::string bytes = EncodeUnitResult(result);
-  return {lease.name, lease.step->setup().job, lease.step->number(),
-          lease.unit, Sha256Hex(bytes),        cpu_seconds,
-          bytes};
+  return {lease.name,           lease.step->setup().job,
+          lease.step->number(), lease.unit,
+          Sha256Hex(bytes),     cpu_seconds,
+          cpu_seconds,          bytes};
 }
 
 // Talks to a table as a worker does.

@@ -150,12 +150,13 @@ class FakeShooter : public Shooter {
 };
 
 ShooterFactory Faking(std::function<absl::Status(UnitResult&)> interfere) {
-  return [interfere](std::shared_ptr<const PatchSet> patches, const ShootOptions& options)
-             -> absl::StatusOr<std::shared_ptr<const Shooter>> {
-    auto real = Shooter::Create(std::move(patches), options);
-    if (!real.ok()) return real.status();
-    return std::make_shared<const FakeShooter>(*real, interfere);
-  };
+  return
+      [interfere](std::shared_ptr<const PatchSet> patches,
+                  const ShootOptions& options) -> absl::StatusOr<std::shared_ptr<const Shooter>> {
+        auto real = Shooter::Create(std::move(patches), options);
+        if (!real.ok()) return real.status();
+        return std::make_shared<const FakeShooter>(*real, interfere);
+      };
 }
 
 using WorkerTest = ServiceFixture;
