@@ -29,6 +29,8 @@ inline google::rpc::ErrorInfo ErrorInfoOf(const grpc::Status& status) {
   return info;
 }
 
+inline std::string ReasonOf(const grpc::Status& status) { return ErrorInfoOf(status).reason(); }
+
 inline v1::Digest DigestOf(const std::string& bytes) {
   v1::Digest digest;
   digest.set_sha256(Sha256Hex(bytes));
