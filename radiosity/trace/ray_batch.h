@@ -7,7 +7,7 @@
 
 namespace lambert {
 
-inline constexpr PatchIndex kEscaped = -1;  // RayBatch::hit of a ray that left the scene
+inline constexpr PatchIndex kEscaped = -1;  // RayBatch::hit of a ray that met no side of a patch
 
 struct RayBatch {
   static constexpr int kCapacity = 1024;        // a multiple of the packet width; fits the L2 cache

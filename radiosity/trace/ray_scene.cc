@@ -187,7 +187,10 @@ void RayScene::Impl::TracePacket(RayBatch& batch, int first) const {
         const float origin[3] = {packet.ray.org_x[l], packet.ray.org_y[l], packet.ray.org_z[l]};
         const float direction[3] = {packet.ray.dir_x[l], packet.ray.dir_y[l], packet.ray.dir_z[l]};
         const RTCRayHit culled = CastCulled(origin, direction);
-        hit = culled.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kEscaped : SideHit(culled);
+        const Vec3 d{direction[0], direction[1], direction[2]};
+        const double behind =
+            (static_cast<double>(culled.ray.tfar) - packet.ray.tfar[l]) * Length(d);
+        hit = behind <= kTieDistance ? SideHit(culled) : kEscaped;
       }
     }
     batch.hit[first + l] = hit;

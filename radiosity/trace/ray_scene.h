@@ -6,9 +6,9 @@
 // Leaks and self-hits: traversal is robust (watertight along shared edges), rays start
 // kOriginOffset above their patch and may hit at any distance > 0.
 //
-// One-sided patches exist from their front only, as glTF has it: rays pass through their backs. So
-// walls that stand back to back, even in one plane, each show their own side, and what a patch that
-// lies partly under furniture sends from there is not lost (docs/decisions/0003).
+// Backs of one-sided patches are opaque and black: a ray that meets one ends there and counts as
+// escaped (docs/decisions/0003). A front within kTieDistance of the back wins, so walls that stand
+// back to back, even in one plane, each show their own side.
 #pragma once
 
 #include <memory>
@@ -24,6 +24,8 @@ namespace lambert {
 // Height above its patch at which a ray starts: 8 float32 spacings at coordinate 1, so that
 // rounding never puts an origin below its own patch. In trace coordinates.
 inline constexpr float kOriginOffset = 4.8e-7f;
+// How far behind a back a front still counts as lying in its plane. In trace coordinates.
+inline constexpr float kTieDistance = 2e-6f;
 
 // The answer to one ray of a picture.
 struct PictureHit {

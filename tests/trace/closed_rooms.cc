@@ -36,6 +36,12 @@ std::vector<Room> ConvexRooms() {
 
 PatchSet ClosedCornell(int n) {
   Scene scene = MakeCornell(n);
+  // Two-sided blocks and lamp: what is shot under and above them meets a side.
+  for (const Mesh& mesh : scene.meshes) {
+    const bool has_back = mesh.name.find("block") != std::string::npos || mesh.name == "lamp";
+    if (!has_back) continue;
+    for (const Primitive& part : mesh.primitives) scene.materials[part.material].two_sided = true;
+  }
   const Scene front =
       SceneMaker().Quad({0, 0, 2}, {0, 2, 0}, {2, 0, 0}, {{0.5, 0.5, 0.5}, {}}, n).Make();
   Mesh mesh = front.meshes[0];

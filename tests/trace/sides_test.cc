@@ -93,25 +93,21 @@ TEST(Sides, ATwoSidedTriangleShowsItsFrontInFrontAndItsBackBehind) {
   }
 }
 
-TEST(Sides, RaysPassThroughBacksToTheFrontBehindThem) {
-  // Three sheets that face up, and one that faces down, seen from below.
+TEST(Sides, BacksOfOneSidedPatchesEndRays) {
   const PatchSet patches = PatchesOf(SceneMaker()
-                                         .Quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, kGray, 1, "one")
-                                         .Quad({0, 0, 2}, {1, 0, 0}, {0, 1, 0}, kGray, 1, "two")
-                                         .Quad({0, 0, 3}, {0, 1, 0}, {1, 0, 0}, kGray, 1, "down")
-                                         .Quad({0, 0, 4}, {1, 0, 0}, {0, 1, 0}, kGray, 1, "four")
+                                         .Quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, kGray, 1, "up")
+                                         .Quad({0, 0, 2}, {0, 1, 0}, {1, 0, 0}, kGray, 1, "down")
                                          .Make());
   const auto scene = *RayScene::Create(patches);
-  const PatchIndex hit = TraceOne(patches, *scene, {0.4, 0.3, 0}, {0, 0, 1});
+  EXPECT_EQ(TraceOne(patches, *scene, {0.4, 0.3, 0}, {0, 0, 1}), kEscaped);
+  const PatchIndex hit = TraceOne(patches, *scene, {0.4, 0.3, 1.5}, {0, 0, 1});
   ASSERT_GE(hit, 0);
   EXPECT_EQ(patches.node_names[patches.source[hit].node], "down");
-  EXPECT_EQ(TraceOne(patches, *scene, {0.4, 0.3, 3.5}, {0, 0, 1}), kEscaped);
-  const PatchIndex above = TraceOne(patches, *scene, {0.4, 0.3, 5}, {0, 0, -1});
-  EXPECT_EQ(patches.node_names[patches.source[above].node], "four");
 }
 
-// A lamp's flux from the part of a floor that a block stands on must get out of the block.
-TEST(Sides, RaysFromUnderFurnitureArriveInTheRoom) {
+// Visibility is symmetric, or shooting and gathering would solve different scenes: nothing reaches
+// the floor under a block, and nothing leaves it.
+TEST(Sides, NothingLeavesTheFloorUnderABlock) {
   const PatchSet patches = PatchesOf(SceneMaker()
                                          .Box({0, 0, 0}, {3, 3, 3}, true, {kGray}, 1, "room")
                                          .Box({1, 0, 1}, {2, 1, 2}, false, {kGray}, 1, "block")
@@ -119,9 +115,7 @@ TEST(Sides, RaysFromUnderFurnitureArriveInTheRoom) {
   const auto scene = *RayScene::Create(patches);
   for (int k = 0; k < 100; ++k) {
     const Vec3 under{1.05 + 0.9 * (k % 10) / 9.0, 1e-6, 1.05 + 0.9 * (k / 10) / 9.0};
-    const PatchIndex hit = TraceOne(patches, *scene, under, {0.3, 0.5 + 0.01 * k, -0.2});
-    ASSERT_GE(hit, 0);
-    EXPECT_EQ(patches.node_names[patches.source[hit].node], "room");
+    EXPECT_EQ(TraceOne(patches, *scene, under, {0.3, 0.5 + 0.01 * k, -0.2}), kEscaped);
   }
 }
 

@@ -94,8 +94,9 @@ TEST(Trace, TakesDirectionsOfAnyLength) {
   }
 }
 
-// Every triangle tried in double (Moeller, Trumbore 1997).
-PatchIndex NearestFront(const PatchSet& patches, Vec3 origin, Vec3 direction, double* margin) {
+// Every triangle tried in double (Moeller, Trumbore 1997): the nearest patch, or kEscaped behind
+// the back of a one-sided one. Of a front and a back in one plane, the front.
+PatchIndex NearestSide(const PatchSet& patches, Vec3 origin, Vec3 direction, double* margin) {
   PatchIndex nearest = kEscaped;
   double distance = 1e300;
   *margin = 1;
@@ -103,20 +104,21 @@ PatchIndex NearestFront(const PatchSet& patches, Vec3 origin, Vec3 direction, do
     const auto& [a, b, c] = patches.corners[i];
     const Vec3 e1 = b - a, e2 = c - a, p = Cross(direction, e2);
     const double determinant = Dot(e1, p);
-    if (determinant <= 0) continue;  // seen from behind, or along its plane
+    if (determinant == 0) continue;  // seen along its plane
     const Vec3 s = origin - a, q = Cross(s, e1);
     const double u = Dot(s, p) / determinant, v = Dot(direction, q) / determinant;
     const double t = Dot(e2, q) / determinant;
     const double inside = std::min({u, v, 1 - u - v});
     if (t > 0 && t < distance + 1e-3) *margin = std::min(*margin, std::abs(inside));
-    if (inside < 0 || t <= 0 || t >= distance) continue;
-    nearest = i;
+    const bool back = determinant < 0;
+    if (inside < 0 || t <= 0 || t >= distance + (back ? -1e-6 : 1e-6)) continue;
+    nearest = back ? kEscaped : i;
     distance = t;
   }
   return nearest;
 }
 
-TEST(Trace, HitsTheNearestFrontOfAllTriangles) {
+TEST(Trace, HitsTheNearestSideOfAllTriangles) {
   const PatchSet patches = PatchesOf(MakeOffice(1));
   const auto scene = *RayScene::Create(patches);
   const std::vector<Ray> rays = RandomRays(10000);
@@ -126,7 +128,7 @@ TEST(Trace, HitsTheNearestFrontOfAllTriangles) {
   for (size_t k = 0; k < rays.size(); ++k) {
     double margin;
     const Vec3 origin = (rays[k].origin - zero) / scene->scale();
-    const PatchIndex expected = NearestFront(patches, origin, rays[k].direction, &margin);
+    const PatchIndex expected = NearestSide(patches, origin, rays[k].direction, &margin);
     if (margin < 1e-4) continue;  // so near to an edge that float may see the other side
     ++compared;
     ASSERT_EQ(hits[k], expected) << k;
