@@ -61,6 +61,11 @@ absl::Status Coordinator::Restore() {
   if (!unfinished.ok()) return unfinished.status();
   scheduler_ = std::make_unique<Scheduler>(&runner_, options_.max_running_jobs);
   for (std::shared_ptr<Job>& job : *unfinished) {
+    if (job->Get().unit_version() != unit_version_) {
+      // Passes of two versions must not be mixed: begin again.
+      jobs_.DeleteCheckpoint(*job);
+      job->Update([this](v1::SolveJob& record) { record.set_unit_version(unit_version_); });
+    }
     options_.log(job->name() + " is gone on with");
     scheduler_->Add(std::move(job));
   }

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "google/protobuf/util/time_util.h"
+#include "server/base/timestamp.h"
 
 namespace lambert::server {
-
-using google::protobuf::util::TimeUtil;
 
 bool IsFinal(v1::SolveJob::State state) {
   return state == v1::SolveJob::STATE_SUCCEEDED || state == v1::SolveJob::STATE_FAILED ||
@@ -75,7 +73,7 @@ bool Job::Start() {
     absl::MutexLock lock(&mutex_);
     if (record_.state() != v1::SolveJob::STATE_QUEUED) return false;
     record_.set_state(v1::SolveJob::STATE_RUNNING);
-    if (!record_.has_start_time()) *record_.mutable_start_time() = TimeUtil::GetCurrentTime();
+    if (!record_.has_start_time()) *record_.mutable_start_time() = TimestampNow();
   }
   Tell();
   return true;
@@ -86,7 +84,7 @@ bool Job::CancelQueued() {
     absl::MutexLock lock(&mutex_);
     if (record_.state() != v1::SolveJob::STATE_QUEUED) return false;
     record_.set_state(v1::SolveJob::STATE_CANCELLED);
-    *record_.mutable_end_time() = TimeUtil::GetCurrentTime();
+    *record_.mutable_end_time() = TimestampNow();
   }
   Tell();
   return true;

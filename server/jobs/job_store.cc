@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "google/protobuf/util/message_differencer.h"
-#include "google/protobuf/util/time_util.h"
 #include "lambert/v1/snapshot_service.pb.h"
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
+#include "server/base/timestamp.h"
 #include "server/jobs/spec.h"
 
 namespace lambert::server {
@@ -97,7 +97,7 @@ absl::StatusOr<JobStore::Created> JobStore::Create(const v1::CreateSolveJobReque
   record.set_state(v1::SolveJob::STATE_QUEUED);
   *record.mutable_progress() = EncodeProgress(Progress());
   record.set_unit_version(unit_version);
-  *record.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
+  *record.mutable_create_time() = TimestampNow();
   auto job = std::make_shared<Job>(record);
   {
     absl::MutexLock lock(&mutex_);

@@ -3,19 +3,17 @@
 #include <exception>
 #include <utility>
 
-#include "google/protobuf/util/time_util.h"
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/shoot/options_codec.h"
 #include "radiosity/solve/plan.h"
 #include "server/base/status_proto.h"
+#include "server/base/timestamp.h"
 #include "server/run/table_executor.h"
 
 namespace lambert::server {
 namespace {
-
-using google::protobuf::util::TimeUtil;
 
 // A snapshot is left out while those before took more than a twentieth of the time.
 constexpr double kPublishCostFactor = 20;
@@ -134,7 +132,7 @@ absl::Status JobRunner::Publish(Job& job, const Solver& solver) {
   const std::string sha256 = Sha256Hex(payload);
   snapshot.mutable_payload_digest()->set_sha256(sha256);
   snapshot.mutable_payload_digest()->set_size_bytes(static_cast<int64_t>(payload.size()));
-  *snapshot.mutable_create_time() = TimeUtil::GetCurrentTime();
+  *snapshot.mutable_create_time() = TimestampNow();
   parts_.refs->Add(sha256);
   if (absl::Status stored = parts_.blobs->Put(sha256, std::move(payload)); !stored.ok()) {
     parts_.refs->Release(sha256);
@@ -153,7 +151,7 @@ absl::Status JobRunner::Publish(Job& job, const Solver& solver) {
 
 void JobRunner::Finish(Job& job, const absl::Status& status) {
   job.Update([&](v1::SolveJob& record) {
-    *record.mutable_end_time() = TimeUtil::GetCurrentTime();
+    *record.mutable_end_time() = TimestampNow();
     if (status.ok()) {
       record.set_state(v1::SolveJob::STATE_SUCCEEDED);
     } else if (absl::IsCancelled(status)) {

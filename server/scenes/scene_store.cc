@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "google/protobuf/util/time_util.h"
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
 #include "server/base/status_proto.h"
+#include "server/base/timestamp.h"
 
 namespace lambert::server {
 namespace {
@@ -122,7 +122,7 @@ absl::Status SceneStore::Examine(v1::Scene& scene) const {
     added->set_reason(warning.reason);
     added->set_message(warning.message);
   }
-  *scene.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
+  *scene.mutable_create_time() = TimestampNow();
   return absl::OkStatus();
 }
 

@@ -47,59 +47,69 @@ absl::StatusOr<SubmitOutcome> WorkTable::Repeated(const Submission& submission,
   return status;
 }
 
-absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
-  std::shared_ptr<PublishedStep> step;
-  std::string worker;
-  bool is_new = false;
-  int first_grain = 0, grain_count = 0;
-  {
-    absl::MutexLock lock(&mutex_);
-    step = FindStep(submission.job, submission.step_number);
-    worker = WorkerOf(submission.lease);
-    if (step != nullptr) {
-      const std::vector<UnitState>& units = state_.steps.at(submission.job).units;
-      if (submission.unit < 0 || submission.unit >= static_cast<int>(units.size())) {
-        return MakeError(absl::StatusCode::kInvalidArgument,
-                         {"FIELD_INVALID", "unit_key.unit_index", "there is no such unit",
-                          "use programs of one version"});
-      }
-      const UnitState& unit = units[submission.unit];
-      first_grain = unit.first_grain;
-      grain_count = unit.grain_count;
-      is_new = !unit.done || unit.result_digest != submission.digest;
-    }
+absl::StatusOr<WorkTable::Claim> WorkTable::Examine(const Submission& submission) const {
+  absl::MutexLock lock(&mutex_);
+  Claim claim;
+  claim.worker = WorkerOf(submission.lease);
+  claim.step = FindStep(submission.job, submission.step_number);
+  if (claim.step == nullptr) return claim;
+  const std::vector<UnitState>& units = state_.steps.at(submission.job).units;
+  if (submission.unit < 0 || submission.unit >= static_cast<int>(units.size())) {
+    return MakeError(absl::StatusCode::kInvalidArgument,
+                     {"FIELD_INVALID", "unit_key.unit_index", "there is no such unit",
+                      "use programs of one version"});
   }
+  const UnitState& unit = units[submission.unit];
+  claim.first_grain = unit.first_grain;
+  claim.grain_count = unit.grain_count;
+  claim.is_new = !unit.done || unit.result_digest != submission.digest;
+  return claim;
+}
+
+absl::StatusOr<SubmitOutcome> WorkTable::Settle(const Submission& submission, const Claim& claim,
+                                                const absl::Status& checked) {
+  const bool is_current =
+      claim.step != nullptr && FindStep(submission.job, submission.step_number) == claim.step;
+  absl::StatusOr<SubmitOutcome> outcome = SubmitOutcome::kObsolete;
+  if (!checked.ok()) {
+    FailLease(submission.lease, std::string(checked.message()));
+    outcome = checked;
+  } else if (is_current && state_.steps.at(submission.job).units[submission.unit].done) {
+    outcome = Repeated(submission, claim.worker, *claim.step);
+  } else if (is_current) {
+    FinishUnit(state_, {submission.job, submission.unit}, submission.digest, claim.worker,
+               submission.run_seconds);
+    outcome = SubmitOutcome::kAccepted;
+  }
+  if (auto lease = state_.leases.find(submission.lease); lease != state_.leases.end()) {
+    SessionState& session = state_.sessions.at(lease->second.session);
+    if (outcome.ok() && *outcome == SubmitOutcome::kAccepted) ++session.finished_units;
+    RemoveLease(state_, submission.lease, /*failed=*/false);
+  }
+  return outcome;
+}
+
+absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
+  absl::StatusOr<Claim> claim = Examine(submission);
+  if (!claim.ok()) return claim.status();
   // A repetition need not be decoded; one that differs must be sound before it accuses anybody.
-  absl::StatusOr<UnitResult> result =
-      is_new ? step->Check(first_grain, grain_count, worker, submission.bytes) : UnitResult{};
+  absl::StatusOr<UnitResult> result = UnitResult{};
+  if (claim->is_new) {
+    result =
+        claim->step->Check(claim->first_grain, claim->grain_count, claim->worker, submission.bytes);
+  }
   absl::StatusOr<SubmitOutcome> outcome = SubmitOutcome::kObsolete;
   Calls calls;
   {
     absl::MutexLock lock(&mutex_);
-    const bool is_current =
-        step != nullptr && FindStep(submission.job, submission.step_number) == step;
-    if (!result.ok()) {
-      FailLease(submission.lease, std::string(result.status().message()));
-      outcome = result.status();
-    } else if (is_current && state_.steps.at(submission.job).units[submission.unit].done) {
-      outcome = Repeated(submission, worker, *step);
-    } else if (is_current) {
-      FinishUnit(state_, {submission.job, submission.unit}, submission.digest, worker,
-                 submission.run_seconds);
-      outcome = SubmitOutcome::kAccepted;
-    }
-    if (auto lease = state_.leases.find(submission.lease); lease != state_.leases.end()) {
-      SessionState& session = state_.sessions.at(lease->second.session);
-      if (outcome.ok() && *outcome == SubmitOutcome::kAccepted) ++session.finished_units;
-      RemoveLease(state_, submission.lease, /*failed=*/false);
-    }
+    outcome = Settle(submission, *claim, result.status());
     TellRevoked();
     Dispatch(calls);
   }
   for (auto& call : calls) call();
   if (outcome.ok() && *outcome == SubmitOutcome::kAccepted) {
     result->cpu_seconds = submission.cpu_seconds;
-    step->Merge(*result, grain_count);
+    claim->step->Merge(*result, claim->grain_count);
   }
   return outcome;
 }

@@ -137,6 +137,18 @@ class WorkTable {
   std::shared_ptr<PublishedStep> FindStep(const std::string& job, int64_t step_number) const
       ABSL_SHARED_LOCKS_REQUIRED(mutex_);
   std::string WorkerOf(const std::string& lease) const ABSL_SHARED_LOCKS_REQUIRED(mutex_);
+  // What a submission is for, and whether it has to be decoded.
+  struct Claim {
+    std::shared_ptr<PublishedStep> step;  // null: it is over
+    std::string worker;
+    bool is_new = false;
+    int first_grain = 0, grain_count = 0;
+  };
+  absl::StatusOr<Claim> Examine(const Submission& submission) const;
+  // Books a submission whose bytes were checked.
+  absl::StatusOr<SubmitOutcome> Settle(const Submission& submission, const Claim& claim,
+                                       const absl::Status& checked)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // What becomes of a result of a unit that is done already; fails the step where they differ.
   absl::StatusOr<SubmitOutcome> Repeated(const Submission& submission, const std::string& worker,
                                          PublishedStep& step) ABSL_SHARED_LOCKS_REQUIRED(mutex_);
