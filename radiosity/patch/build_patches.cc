@@ -6,11 +6,11 @@
 #include "absl/strings/str_cat.h"
 #include "radiosity/core/error.h"
 #include "radiosity/patch/patch_builder.h"
+#include "radiosity/patch/patch_material.h"
 #include "radiosity/patch/patch_warnings.h"
 #include "radiosity/patch/place.h"
 #include "radiosity/patch/shape.h"
 #include "radiosity/patch/split.h"
-#include "radiosity/patch/surface.h"
 
 namespace lambert {
 namespace {
@@ -101,12 +101,13 @@ absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& op
   absl::Status status = options.Validate();
   if (!status.ok()) return status;
   std::vector<Warning> warnings = scene.warnings;
-  absl::StatusOr<std::vector<Surface>> surfaces = MakeSurfaces(scene, options.two_sided, &warnings);
-  if (!surfaces.ok()) return surfaces.status();
+  absl::StatusOr<std::vector<PatchMaterial>> materials =
+      MakePatchMaterials(scene, options.two_sided, &warnings);
+  if (!materials.ok()) return materials.status();
   absl::StatusOr<Survey> survey = SurveyScene(scene, options);
   if (!survey.ok()) return survey.status();
 
-  PatchBuilder builder(*surfaces, options, survey->pieces);
+  PatchBuilder builder(*materials, options, survey->pieces);
   status = ForEachTriangle(scene, survey->origin,
                            [&](const PlacedTriangle& placed) { return builder.Add(placed); });
   if (!status.ok()) return status;

@@ -36,9 +36,11 @@ std::string Where(const PatchSource& source) {
                       source.primitive, ", triangle ", source.triangle);
 }
 
-PatchBuilder::PatchBuilder(const std::vector<Surface>& surfaces, const PatchOptions& options,
+PatchBuilder::PatchBuilder(const std::vector<PatchMaterial>& materials, const PatchOptions& options,
                            double expected_patches)
-    : surfaces_(surfaces), options_(options), samples_per_edge_(SamplesPerEdge(expected_patches)) {}
+    : materials_(materials),
+      options_(options),
+      samples_per_edge_(SamplesPerEdge(expected_patches)) {}
 
 absl::Status PatchBuilder::Add(const PlacedTriangle& placed) {
   if (IsDegenerate(placed.corners, Measure(placed.corners))) {
@@ -83,19 +85,20 @@ absl::Status PatchBuilder::AddPiece(const PlacedTriangle& placed, const SplitPie
   const std::array<Vec3, 3> corners = {piece[0].position, piece[1].position, piece[2].position};
   const double area_m2 = Measure(corners).area_m2;
   if (!(area_m2 > 0)) return absl::OkStatus();
-  const Surface& surface = surfaces_[placed.primitive->material + 1];
-  patches_ += surface.two_sided ? 2 : 1;
+  const PatchMaterial& material = materials_[placed.primitive->material + 1];
+  patches_ += material.two_sided ? 2 : 1;
   if (patches_ > options_.max_patches) return TooManyPatches(options_.max_patches);
   absl::StatusOr<Rgb> reflectance =
-      Mean(placed, piece, surface.reflectance_texture, surface.reflectance_uv);
+      Mean(placed, piece, material.reflectance_texture, material.reflectance_uv);
   if (!reflectance.ok()) return reflectance.status();
-  absl::StatusOr<Rgb> exitance = Mean(placed, piece, surface.exitance_texture, surface.exitance_uv);
+  absl::StatusOr<Rgb> exitance =
+      Mean(placed, piece, material.exitance_texture, material.exitance_uv);
   if (!exitance.ok()) return exitance.status();
   fronts_.corners.push_back(corners);
   fronts_.area_m2.push_back(area_m2);
-  fronts_.reflectance.push_back(surface.reflectance * *reflectance);
-  fronts_.exitance_lm_per_m2.push_back(surface.exitance_lm_per_m2 * *exitance);
-  fronts_.twin.push_back(surface.two_sided ? 0 : kNoPatch);
+  fronts_.reflectance.push_back(material.reflectance * *reflectance);
+  fronts_.exitance_lm_per_m2.push_back(material.exitance_lm_per_m2 * *exitance);
+  fronts_.twin.push_back(material.two_sided ? 0 : kNoPatch);
   fronts_.source.push_back(placed.source);
   return absl::OkStatus();
 }

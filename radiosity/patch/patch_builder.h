@@ -6,9 +6,9 @@
 
 #include "absl/status/statusor.h"
 #include "radiosity/patch/build_patches.h"
+#include "radiosity/patch/patch_material.h"
 #include "radiosity/patch/place.h"
 #include "radiosity/patch/split.h"
-#include "radiosity/patch/surface.h"
 
 namespace lambert {
 
@@ -22,15 +22,15 @@ std::string Where(const PatchSource& source);
 class PatchBuilder {
  public:
   // `expected_patches`: at least about how many there will be; textures are sampled the finer, the
-  // fewer. The surfaces and options must outlive the builder.
-  PatchBuilder(const std::vector<Surface>& surfaces, const PatchOptions& options,
+  // fewer. The materials and options must outlive the builder.
+  PatchBuilder(const std::vector<PatchMaterial>& materials, const PatchOptions& options,
                double expected_patches);
 
   // Splits one triangle and averages its textures. Without area it is only counted. SceneError for
   // texture coordinates that are missing or not finite; SCENE_TOO_LARGE.
   absl::Status Add(const PlacedTriangle& placed);
 
-  // Corners, surfaces, twins and sources of all patches in Morton order, and warnings
+  // Corners, materials, twins and sources of all patches in Morton order, and warnings
   // ZERO_AREA_PATCHES and DUPLICATE_PATCHES. The builder is used up.
   PatchSet Finish();
 
@@ -43,7 +43,7 @@ class PatchBuilder {
   // Copies front `front`, and its back where it is two-sided, to the end of `sorted`.
   void Append(PatchIndex front, PatchSet* sorted) const;
 
-  const std::vector<Surface>& surfaces_;
+  const std::vector<PatchMaterial>& materials_;
   const PatchOptions& options_;
   const int samples_per_edge_;
   std::vector<SplitPiece> pieces_;  // of the triangle in hand

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "radiosity/patch/surface.h"
+#include "radiosity/patch/patch_material.h"
 
 namespace lambert {
 namespace {
@@ -71,7 +71,7 @@ TEST(TextureMean, HugeCoordinatesStayBoundedInTimeAndRange) {
   EXPECT_LE(mean.r, 1);
 }
 
-TEST(MakeSurfaces, LeavesOutTexturesThatNoFactorShows) {
+TEST(MakePatchMaterials, LeavesOutTexturesThatNoFactorShows) {
   Scene scene;
   scene.textures.push_back(Uniform(1, 1, 0));
   scene.materials.resize(1);
@@ -79,11 +79,11 @@ TEST(MakeSurfaces, LeavesOutTexturesThatNoFactorShows) {
   scene.materials[0].reflectance_texture = 0;
   scene.materials[0].luminance_texture = 0;
   std::vector<Warning> warnings;
-  const auto surfaces = MakeSurfaces(scene, false, &warnings);
-  ASSERT_TRUE(surfaces.ok());
-  EXPECT_EQ((*surfaces)[1].reflectance_texture, nullptr);
-  EXPECT_EQ((*surfaces)[1].exitance_texture, nullptr);
-  EXPECT_EQ((*surfaces)[0].reflectance, (Rgb{1, 1, 1}));
+  const auto materials = MakePatchMaterials(scene, false, &warnings);
+  ASSERT_TRUE(materials.ok());
+  EXPECT_EQ((*materials)[1].reflectance_texture, nullptr);
+  EXPECT_EQ((*materials)[1].exitance_texture, nullptr);
+  EXPECT_EQ((*materials)[0].reflectance, (Rgb{1, 1, 1}));
 }
 
 }  // namespace

@@ -4,3 +4,7 @@
 #include "absl/status/status.h"
 #include "radiosity/core/looks_down.h"
 #include "radiosity/nowhere.h"
+
+namespace lambert {
+struct Unit {};
+}  // namespace lambert

@@ -8,7 +8,7 @@
 
 namespace lambert {
 
-struct Surface {
+struct PatchMaterial {
   Rgb reflectance;                               // 0..1, multiplies the texture
   const Texture* reflectance_texture = nullptr;  // points into the scene
   int reflectance_uv = 0;
@@ -18,10 +18,11 @@ struct Surface {
   bool two_sided = false;
 };
 
-// One surface for each material, at index material + 1; index 0 is glTF's default material.
+// One for each material of the scene, at index material + 1; index 0 is glTF's default material.
 // Reflectance over 1 becomes 1 (warning REFLECTANCE_CLAMPED). What is negative or not finite is
 // refused with SceneError naming the material. A texture whose factor is zero is left out.
-absl::StatusOr<std::vector<Surface>> MakeSurfaces(const Scene& scene, bool all_two_sided,
-                                                  std::vector<Warning>* warnings);
+absl::StatusOr<std::vector<PatchMaterial>> MakePatchMaterials(const Scene& scene,
+                                                              bool all_two_sided,
+                                                              std::vector<Warning>* warnings);
 
 }  // namespace lambert

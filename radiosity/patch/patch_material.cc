@@ -1,4 +1,4 @@
-#include "radiosity/patch/surface.h"
+#include "radiosity/patch/patch_material.h"
 
 #include <algorithm>
 #include <numbers>
@@ -30,11 +30,12 @@ const Texture* UsedTexture(const Scene& scene, int texture, Rgb factor) {
 
 }  // namespace
 
-absl::StatusOr<std::vector<Surface>> MakeSurfaces(const Scene& scene, bool all_two_sided,
-                                                  std::vector<Warning>* warnings) {
-  std::vector<Surface> surfaces(1);
-  surfaces[0].reflectance = {1, 1, 1};
-  surfaces[0].two_sided = all_two_sided;
+absl::StatusOr<std::vector<PatchMaterial>> MakePatchMaterials(const Scene& scene,
+                                                              bool all_two_sided,
+                                                              std::vector<Warning>* warnings) {
+  std::vector<PatchMaterial> materials(1);
+  materials[0].reflectance = {1, 1, 1};
+  materials[0].two_sided = all_two_sided;
   int clamped = 0;
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
@@ -44,23 +45,23 @@ absl::StatusOr<std::vector<Surface>> MakeSurfaces(const Scene& scene, bool all_t
     if (status.ok()) status = CheckFactor(exitance_lm_per_m2, i, "emission");
     if (!status.ok()) return status;
     const Rgb rho = material.reflectance;
-    Surface surface;
-    surface.reflectance = {std::min(rho.r, 1.0), std::min(rho.g, 1.0), std::min(rho.b, 1.0)};
-    if (surface.reflectance != rho) ++clamped;
-    surface.reflectance_texture = UsedTexture(scene, material.reflectance_texture, rho);
-    surface.reflectance_uv = material.reflectance_uv;
-    surface.exitance_lm_per_m2 = exitance_lm_per_m2;
-    surface.exitance_texture = UsedTexture(scene, material.luminance_texture, material.luminance);
-    surface.exitance_uv = material.luminance_uv;
-    surface.two_sided = material.two_sided || all_two_sided;
-    surfaces.push_back(surface);
+    PatchMaterial made;
+    made.reflectance = {std::min(rho.r, 1.0), std::min(rho.g, 1.0), std::min(rho.b, 1.0)};
+    if (made.reflectance != rho) ++clamped;
+    made.reflectance_texture = UsedTexture(scene, material.reflectance_texture, rho);
+    made.reflectance_uv = material.reflectance_uv;
+    made.exitance_lm_per_m2 = exitance_lm_per_m2;
+    made.exitance_texture = UsedTexture(scene, material.luminance_texture, material.luminance);
+    made.exitance_uv = material.luminance_uv;
+    made.two_sided = material.two_sided || all_two_sided;
+    materials.push_back(made);
   }
   if (clamped > 0) {
     warnings->push_back(
         {"REFLECTANCE_CLAMPED", absl::StrCat("the reflectance of ", clamped,
                                              " material(s) is over 1 and was taken as 1")});
   }
-  return surfaces;
+  return materials;
 }
 
 }  // namespace lambert
