@@ -4,6 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+export CCACHE_BASEDIR=$PWD  # clones share what they compiled
 preset=$1
 shift
 werror=OFF
