@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "radiosity/core/philox.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/pyramid/spherical_triangle.h"
-#include "radiosity/shoot/philox.h"
 #include "radiosity/trace/ray_batch.h"
 #include "radiosity/trace/ray_scene.h"
 

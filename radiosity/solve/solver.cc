@@ -5,7 +5,7 @@
 
 #include "radiosity/core/bytes.h"
 #include "radiosity/core/error.h"
-#include "radiosity/shoot/philox.h"
+#include "radiosity/core/philox.h"
 #include "radiosity/solve/allocate.h"
 #include "radiosity/solve/flux_ledger.h"
 #include "radiosity/solve/plan.h"

@@ -1,4 +1,4 @@
-#include "radiosity/shoot/philox.h"
+#include "radiosity/core/philox.h"
 
 #include <Random123/philox.h>
 #include <gtest/gtest.h>
