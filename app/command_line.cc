@@ -9,6 +9,7 @@
 #include "app/settings.h"
 #include "fmt/format.h"
 #include "radiosity/core/error.h"
+#include "radiosity/shoot/settings.h"
 
 namespace lambert::app {
 namespace {
@@ -266,10 +267,13 @@ void Parser::WarnOfEffectless(const std::vector<std::string>& options, const std
 std::vector<std::string> Parser::Warnings() const {
   const Options& options = draft_.options;
   std::vector<std::string> warnings;
-  if (options.solve.shoot.method == Method::kPmcr) {
-    WarnOfEffectless({"phs-initial", "phs-split", "phs-depth", "phs-alpha1", "phs-alpha2",
-                      "phs-sampling", "phs-min-rays", "phs-count-black"},
-                     "with --method pmcr", warnings);
+  const Method method = options.solve.shoot.method;
+  if (method != Method::kAuto && !UsesPyramids(method)) {
+    std::vector<std::string> names;
+    for (const ShootSetting& setting : ShootSettings()) {
+      if (std::string(setting.name).starts_with("phs-")) names.push_back(setting.name);
+    }
+    WarnOfEffectless(names, fmt::format("with --method {}", MethodName(method)), warnings);
   }
   if (!options.server.empty()) {
     WarnOfEffectless({"workers", "threads"},
@@ -281,7 +285,7 @@ std::vector<std::string> Parser::Warnings() const {
     WarnOfEffectless({"reference", "region"}, "here: give it to lambert fetch", warnings);
   }
   const bool measures = chosen_->command == Command::kBake || chosen_->command == Command::kFetch;
-  if (options.reference_path.empty() && measures) {
+  if (options.reference_path.empty() && measures && method != Method::kImportance) {
     WarnOfEffectless({"region"}, "without --reference", warnings);
   }
   return warnings;
@@ -308,6 +312,9 @@ absl::StatusOr<ParsedLine> Parser::Finish(const Settings& settings) {
   // A number beats a name from the same source; any source beats those under it.
   if (!draft_.quality.empty() && LayerOf("quality", settings) > LayerOf("max-error", settings)) {
     draft_.options.solve.max_error = QualityError(draft_.quality);
+  }
+  if (draft_.options.solve.shoot.method == Method::kImportance) {
+    draft_.options.solve.shoot.region = draft_.options.regions;
   }
   if (absl::Status status = CheckComplete(); !status.ok()) return status;
   return ParsedLine{draft_.options, "", Warnings()};

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "fmt/format.h"
+#include "radiosity/core/error.h"
+#include "radiosity/shoot/settings.h"
 
 namespace lambert::app {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 constexpr char kScene[] = "Scene";
 constexpr char kStop[] = "When it is good enough (none given: an error of 3 %)";
 constexpr char kMethod[] = "Method";
-constexpr char kPyramids[] = "Pyramids of the method phs";
+constexpr char kPyramids[] = "Pyramids of the methods phs, hs and importance";
 constexpr char kPlace[] = "Where it runs";
 constexpr char kMeasure[] = "Measured error";
 constexpr char kTerminal[] = "Terminal";
@@ -70,6 +72,30 @@ CLI::Validator OneOf(const std::vector<std::string>& choices) {
 }
 
 constexpr int64_t kAnyCount = 9007199254740992;  // 2^53
+
+std::string MethodNames() {
+  std::vector<std::string> names;
+  for (Method method : AllMethods()) names.push_back(MethodName(method));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// What is wrong with a value of a setting; "" for nothing.
+std::string CheckSetting(const ShootSetting& setting, const std::string& text) {
+  ShootOptions options;
+  if (!setting.set(text, options)) return fmt::format("'{}' is not {}", text, setting.value_name);
+  const absl::Status status = options.Validate();
+  return status.ok() ? "" : GetErrorDetail(status)->message;
+}
+
+void AddSetting(CLI::App& command, const ShootSetting& setting, ShootOptions& shoot) {
+  CLI::Option* option = command.add_option_function<std::string>(
+      std::string("--") + setting.name,
+      [&setting, &shoot](const std::string& text) { setting.set(text, shoot); }, setting.help);
+  option->option_text(setting.value_name)
+      ->group(std::string(setting.name).starts_with("phs-") ? kPyramids : kMethod);
+  if (std::string(setting.value_name) == "N") option->transform(CountFrom(0, kAnyCount));
+  option->check(Check([&setting](std::string& text) { return CheckSetting(setting, text); }));
+}
 
 }  // namespace
 
@@ -131,13 +157,15 @@ void AddStopOptions(CLI::App& command, Draft& draft) {
 
 void AddMethodOptions(CLI::App& command, Draft& draft) {
   ShootOptions& shoot = draft.options.solve.shoot;
-  PyramidOptions& pyramids = shoot.pyramids;
   command
       .add_option_function<std::string>(
           "--method", [&shoot](const std::string& id) { shoot.method = *ParseMethod(id); },
-          "auto (default: what suits the scene), pmcr (progressive Monte Carlo), phs (pyramids)")
+          "auto (default: what suits the scene), " + MethodNames())
       ->option_text("ID")
-      ->check(OneOf({"auto", "pmcr", "phs"}))
+      ->check(Check([](std::string& text) -> std::string {
+        if (ParseMethod(text).ok()) return "";
+        return fmt::format("'{}' is not one of auto, {}", text, MethodNames());
+      }))
       ->group(kMethod);
   command.add_option("--seed", draft.options.solve.seed, "of the random numbers (default 1)")
       ->option_text("N")
@@ -149,50 +177,7 @@ void AddMethodOptions(CLI::App& command, Draft& draft) {
         return fmt::format("'{}' is not a whole number from 0 to 2^64 - 1", text);
       }))
       ->group(kMethod);
-  command
-      .add_option("--phs-initial", pyramids.initial, "spherical triangles to begin with, 3..64 (4)")
-      ->option_text("N")
-      ->transform(CountFrom(3, 64))
-      ->group(kPyramids);
-  command
-      .add_option("--phs-split", pyramids.split, "children of a split: 4 (edge midpoints) or 3 (4)")
-      ->option_text("3|4")
-      ->transform(CountFrom(3, 4))
-      ->group(kPyramids);
-  command.add_option("--phs-depth", pyramids.depth, "how often pyramids are split, 0..4 (2)")
-      ->option_text("N")
-      ->transform(CountFrom(0, 4))
-      ->group(kPyramids);
-  command
-      .add_option("--phs-alpha1", pyramids.alpha1, "weight of the form factor in the density (1)")
-      ->option_text("F")
-      ->check(NumberFrom(0))
-      ->group(kPyramids);
-  command
-      .add_option("--phs-alpha2", pyramids.alpha2, "weight of the patch count in the density (1)")
-      ->option_text("F")
-      ->check(NumberFrom(0))
-      ->group(kPyramids);
-  command
-      .add_option_function<std::string>(
-          "--phs-sampling",
-          [&pyramids](const std::string& sampling) {
-            pyramids.sampling = sampling == "projected" ? PyramidSampling::kProjectedAngle
-                                                        : PyramidSampling::kSolidAngle;
-          },
-          "in a pyramid: projected (default, all rays alike) or solid-angle (the paper's)")
-      ->option_text("NAME")
-      ->check(OneOf({"projected", "solid-angle"}))
-      ->group(kPyramids);
-  command
-      .add_option("--phs-min-rays", pyramids.min_rays,
-                  "rays in one visit from which a patch gets pyramids (0: chosen by cost)")
-      ->option_text("N")
-      ->transform(CountFrom(0, kAnyCount))
-      ->group(kPyramids);
-  command
-      .add_flag("--phs-count-black", pyramids.count_black, "count patches that reflect nothing too")
-      ->group(kPyramids);
+  for (const ShootSetting& setting : ShootSettings()) AddSetting(command, setting, shoot);
 }
 
 void AddPlaceOptions(CLI::App& command, Draft& draft) {
@@ -228,7 +213,8 @@ void AddMeasureOptions(CLI::App& command, Draft& draft) {
       ->group(kMeasure);
   command
       .add_option("--region", draft.options.regions,
-                  "a node of the local error, by name or index; may be repeated")
+                  "a node of the local error and of the method importance, by name or index; "
+                  "may be repeated")
       ->option_text("NODE")
       ->allow_extra_args(false)
       ->group(kMeasure);

@@ -1,6 +1,7 @@
 #include "client/convert.h"
 
 #include "client/status.h"
+#include "radiosity/shoot/settings.h"
 
 namespace lambert::client {
 namespace {
@@ -35,36 +36,6 @@ StopReason StopReasonFromProto(v1::SolveJob::StopReason reason) {
   }
 }
 
-void PyramidsToProto(const PyramidOptions& options, v1::PyramidSpec& spec) {
-  spec.set_initial_count(options.initial);
-  spec.set_split_count(options.split);
-  spec.set_depth(options.depth);
-  spec.set_alpha1(options.alpha1);
-  spec.set_alpha2(options.alpha2);
-  spec.set_sampling(options.sampling == PyramidSampling::kSolidAngle
-                        ? v1::PyramidSpec::SAMPLING_SOLID_ANGLE
-                        : v1::PyramidSpec::SAMPLING_PROJECTED_ANGLE);
-  spec.set_count_black(options.count_black);
-  spec.set_use_clusters(options.use_clusters);
-  spec.set_min_ray_count(options.min_rays);
-}
-
-PyramidOptions PyramidsFromProto(const v1::PyramidSpec& spec) {
-  PyramidOptions options;
-  if (spec.has_initial_count()) options.initial = spec.initial_count();
-  if (spec.has_split_count()) options.split = spec.split_count();
-  if (spec.has_depth()) options.depth = spec.depth();
-  if (spec.has_alpha1()) options.alpha1 = spec.alpha1();
-  if (spec.has_alpha2()) options.alpha2 = spec.alpha2();
-  options.sampling = spec.sampling() == v1::PyramidSpec::SAMPLING_SOLID_ANGLE
-                         ? PyramidSampling::kSolidAngle
-                         : PyramidSampling::kProjectedAngle;
-  options.count_black = spec.count_black();
-  if (spec.has_use_clusters()) options.use_clusters = spec.use_clusters();
-  options.min_rays = spec.min_ray_count();
-  return options;
-}
-
 void FromProto(const v1::PatchSpec& spec, PatchOptions& options) {
   options.max_edge_m = spec.max_edge_meters();
   options.two_sided = spec.two_sided();
@@ -85,7 +56,10 @@ v1::SolveSpec ToProto(const PatchOptions& patch, const SolveOptions& solve) {
                                               : v1::PatchSpec::EMISSION_UNIT_WATT);
   spec.mutable_patch()->set_max_patch_count(patch.max_patches);
   spec.mutable_shoot()->set_method(MethodName(solve.shoot.method));
-  PyramidsToProto(solve.shoot.pyramids, *spec.mutable_shoot()->mutable_pyramids());
+  for (const auto& [name, value] : ChangedSettings(solve.shoot)) {
+    (*spec.mutable_shoot()->mutable_settings())[name] = value;
+  }
+  for (const std::string& node : solve.shoot.region) spec.mutable_shoot()->add_region(node);
   spec.set_seed(static_cast<int64_t>(solve.seed));
   spec.set_max_error(solve.max_error);
   spec.set_max_ray_count(solve.max_rays);
@@ -98,7 +72,11 @@ v1::SolveSpec ToProto(const PatchOptions& patch, const SolveOptions& solve) {
 void FromProto(const v1::SolveSpec& spec, PatchOptions& patch, SolveOptions& solve) {
   FromProto(spec.patch(), patch);
   solve.shoot.method = ParseMethod(spec.shoot().method()).value_or(Method::kAuto);
-  solve.shoot.pyramids = PyramidsFromProto(spec.shoot().pyramids());
+  for (const auto& [name, value] : spec.shoot().settings()) {
+    // A setting that this program does not know changes nothing that it shows.
+    (void)ApplySetting(name, value, solve.shoot);
+  }
+  solve.shoot.region.assign(spec.shoot().region().begin(), spec.shoot().region().end());
   if (spec.has_seed()) solve.seed = static_cast<uint64_t>(spec.seed());
   solve.max_error = spec.max_error();
   solve.max_rays = spec.max_ray_count();

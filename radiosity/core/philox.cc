@@ -35,23 +35,27 @@ std::array<uint32_t, 4> Philox(std::array<uint32_t, 4> c, std::array<uint32_t, 2
   return c;
 }
 
+std::array<uint32_t, 4> RandomBits(const RandomStream& stream, uint32_t ray, RandomPurpose purpose,
+                                   uint32_t retry) {
+  return Philox({ray, stream.emitter, stream.step, PassAndPurpose(stream.pass, purpose, retry)},
+                {static_cast<uint32_t>(stream.seed), static_cast<uint32_t>(stream.seed >> 32)});
+}
+
 std::array<float, 4> RandomNumbers(const RandomStream& stream, uint32_t ray, RandomPurpose purpose,
                                    uint32_t retry) {
-  const auto bits =
-      Philox({ray, stream.emitter, stream.step, PassAndPurpose(stream.pass, purpose, retry)},
-             {static_cast<uint32_t>(stream.seed), static_cast<uint32_t>(stream.seed >> 32)});
+  const std::array<uint32_t, 4> bits = RandomBits(stream, ray, purpose, retry);
   std::array<float, 4> numbers;
   for (int k = 0; k < 4; ++k) numbers[k] = static_cast<float>(bits[k] >> 8) * kTo01;
   return numbers;
 }
 
-void FillRandomNumbers(const RandomStream& stream, uint32_t first, RandomNumbers8& out) {
+void FillRandomNumbers(const RandomStream& stream, uint32_t first, RandomNumbers8& out,
+                       RandomPurpose purpose, uint32_t retry) {
   __m256i c0 = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(first)),
                                 _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
   __m256i c1 = _mm256_set1_epi32(static_cast<int>(stream.emitter));
   __m256i c2 = _mm256_set1_epi32(static_cast<int>(stream.step));
-  __m256i c3 =
-      _mm256_set1_epi32(static_cast<int>(PassAndPurpose(stream.pass, RandomPurpose::kRay, 0)));
+  __m256i c3 = _mm256_set1_epi32(static_cast<int>(PassAndPurpose(stream.pass, purpose, retry)));
   const __m256i m0 = _mm256_set1_epi32(static_cast<int>(kMultiplier0));
   const __m256i m1 = _mm256_set1_epi32(static_cast<int>(kMultiplier1));
   uint32_t key0 = static_cast<uint32_t>(stream.seed);

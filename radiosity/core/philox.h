@@ -14,6 +14,7 @@ enum class RandomPurpose : uint32_t {
   kRay = 0,            // position on the emitter and direction
   kPyramidOffset = 1,  // start of the systematic rounding over pyramids
   kPatchOffset = 2,    // start of the systematic rounding over patches
+  kScramble = 3,       // of a visit's Sobol sequence
   kRetry = 8,          // + k: the k-th retry of a rejected direction
 };
 
@@ -29,10 +30,15 @@ std::array<uint32_t, 4> Philox(std::array<uint32_t, 4> counter, std::array<uint3
 std::array<float, 4> RandomNumbers(const RandomStream& stream, uint32_t ray, RandomPurpose purpose,
                                    uint32_t retry = 0);
 
-// The same numbers (purpose kRay) for rays first .. first + 7: numbers[k][lane].
+// The 128 bits that they are made of.
+std::array<uint32_t, 4> RandomBits(const RandomStream& stream, uint32_t ray, RandomPurpose purpose,
+                                   uint32_t retry = 0);
+
+// The same numbers for rays first .. first + 7: numbers[k][lane].
 struct alignas(32) RandomNumbers8 {
   float numbers[4][8];
 };
-void FillRandomNumbers(const RandomStream& stream, uint32_t first, RandomNumbers8& out);
+void FillRandomNumbers(const RandomStream& stream, uint32_t first, RandomNumbers8& out,
+                       RandomPurpose purpose = RandomPurpose::kRay, uint32_t retry = 0);
 
 }  // namespace lambert

@@ -1,6 +1,9 @@
 #include "radiosity/output/run_json.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+
+#include "radiosity/shoot/settings.h"
 
 namespace lambert {
 namespace {
@@ -12,27 +15,23 @@ Json RgbJson(Rgb value) { return {value.r, value.g, value.b}; }
 Json KnownOrNull(double estimate) { return estimate < 0 ? Json(nullptr) : Json(estimate); }
 
 Json OptionsJson(const SolveOptions& solve, const PatchOptions& patch) {
-  const PyramidOptions& pyramids = solve.shoot.pyramids;
-  return {{"method", MethodName(solve.shoot.method)},
-          {"seed", solve.seed},
-          {"max_error", solve.max_error},
-          {"max_rays", solve.max_rays},
-          {"max_time_s", solve.max_time_s},
-          {"unsent_tolerance", solve.unsent_tolerance},
-          {"max_steps", solve.max_steps},
-          {"max_edge_m", patch.max_edge_m},
-          {"two_sided", patch.two_sided},
-          {"emission_unit", patch.emission_unit == EmissionUnit::kNit ? "nit" : "W/m2/sr"},
-          {"phs_initial", pyramids.initial},
-          {"phs_split", pyramids.split},
-          {"phs_depth", pyramids.depth},
-          {"phs_alpha1", pyramids.alpha1},
-          {"phs_alpha2", pyramids.alpha2},
-          {"phs_sampling",
-           pyramids.sampling == PyramidSampling::kSolidAngle ? "solid_angle" : "projected_angle"},
-          {"phs_count_black", pyramids.count_black},
-          {"phs_use_clusters", pyramids.use_clusters},
-          {"phs_min_rays", pyramids.min_rays}};
+  Json json{{"method", MethodName(solve.shoot.method)},
+            {"seed", solve.seed},
+            {"max_error", solve.max_error},
+            {"max_rays", solve.max_rays},
+            {"max_time_s", solve.max_time_s},
+            {"unsent_tolerance", solve.unsent_tolerance},
+            {"max_steps", solve.max_steps},
+            {"max_edge_m", patch.max_edge_m},
+            {"two_sided", patch.two_sided},
+            {"emission_unit", patch.emission_unit == EmissionUnit::kNit ? "nit" : "W/m2/sr"},
+            {"region", solve.shoot.region}};
+  for (const ShootSetting& setting : ShootSettings()) {
+    std::string key = setting.name;
+    std::replace(key.begin(), key.end(), '-', '_');
+    json[key] = setting.get(solve.shoot);
+  }
+  return json;
 }
 
 Json PlanJson(const Plan& plan) {

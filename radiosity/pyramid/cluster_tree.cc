@@ -74,10 +74,10 @@ void ClusterTree::FillLeaf(const std::vector<std::array<Vec3, 3>>& corners, Clus
 }
 
 void ClusterTree::CountLeaf(const Cluster& leaf, const LocalFrame& frame,
-                            const Hemisphere& hemisphere, std::vector<int32_t>& counts) const {
+                            const HemisphereCells& cells, std::vector<int32_t>& counts) const {
   int32_t located[3 * kLeafPatches];
   for (int32_t v = 0; v < leaf.vertex_count; ++v) {
-    located[v] = hemisphere.Locate(frame.ToLocal(vertices_[leaf.first_vertex + v]));
+    located[v] = cells.Locate(frame.ToLocal(vertices_[leaf.first_vertex + v]));
   }
   for (int32_t i = leaf.begin; i < leaf.end; ++i) {
     const int32_t p0 = located[triangles_[i][0]];
@@ -90,9 +90,9 @@ void ClusterTree::CountLeaf(const Cluster& leaf, const LocalFrame& frame,
 }
 
 std::vector<int32_t> ClusterTree::CountPatches(const LocalFrame& frame,
-                                               const Hemisphere& hemisphere,
+                                               const HemisphereCells& cells,
                                                bool use_clusters) const {
-  std::vector<int32_t> counts(hemisphere.size(), 0);
+  std::vector<int32_t> counts(cells.size(), 0);
   if (clusters_.empty()) return counts;
   std::vector<int32_t> open = {0};
   while (!open.empty()) {
@@ -101,14 +101,14 @@ std::vector<int32_t> ClusterTree::CountPatches(const LocalFrame& frame,
     if (use_clusters) {
       const Vec3 center = frame.ToLocal(cluster.center);
       if (center.z < -cluster.radius * (1 + 1e-9)) continue;  // wholly below the horizon
-      const int pyramid = hemisphere.Locate(center);
-      if (pyramid >= 0 && hemisphere.HoldsBall(pyramid, center, cluster.radius)) {
+      const int pyramid = cells.Locate(center);
+      if (pyramid >= 0 && cells.HoldsBall(pyramid, center, cluster.radius)) {
         counts[pyramid] += cluster.end - cluster.begin;
         continue;
       }
     }
     if (cluster.left < 0) {
-      CountLeaf(cluster, frame, hemisphere, counts);
+      CountLeaf(cluster, frame, cells, counts);
     } else {
       open.push_back(cluster.right);
       open.push_back(cluster.left);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "radiosity/patch/patch_set.h"
-#include "radiosity/pyramid/hemisphere.h"
+#include "radiosity/pyramid/cells.h"
 
 namespace lambert {
 
@@ -31,9 +31,9 @@ class ClusterTree {
   ClusterTree(const PatchSet& patches, bool count_black);
 
   // n_ip: the patches with at least one vertex in pyramid p, as seen in `frame` (JPS00, section 4).
-  // counts[p] for each pyramid of the hemisphere; a patch counts once in each that it touches.
+  // counts[p] for each cell; a patch counts once in each that it touches.
   // `use_clusters` false tests every vertex: the same counts, for comparison.
-  std::vector<int32_t> CountPatches(const LocalFrame& frame, const Hemisphere& hemisphere,
+  std::vector<int32_t> CountPatches(const LocalFrame& frame, const HemisphereCells& cells,
                                     bool use_clusters = true) const;
 
  private:
@@ -49,7 +49,7 @@ class ClusterTree {
 
   int32_t Build(const std::vector<std::array<Vec3, 3>>& corners, int32_t begin, int32_t end);
   void FillLeaf(const std::vector<std::array<Vec3, 3>>& corners, Cluster& leaf);
-  void CountLeaf(const Cluster& leaf, const LocalFrame& frame, const Hemisphere& hemisphere,
+  void CountLeaf(const Cluster& leaf, const LocalFrame& frame, const HemisphereCells& cells,
                  std::vector<int32_t>& counts) const;
 
   std::vector<Triangle> triangles_;

@@ -15,7 +15,7 @@ Vec3 PlaneToward(Vec3 p, Vec3 q, Vec3 inside) {
 }  // namespace
 
 Hemisphere::Hemisphere(int initial, int split, int depth)
-    : initial_(initial), split_(split), depth_(depth), divisions_(depth) {
+    : initial_(initial), split_(split), depth_(depth), divisions_(depth), levels_(depth + 1) {
   for (int k = 0; k < initial; ++k) {
     const double angle = 2 * std::numbers::pi * k / initial;
     horizon_.push_back({std::cos(angle), std::sin(angle), 0});
@@ -26,8 +26,8 @@ Hemisphere::Hemisphere(int initial, int split, int depth)
 }
 
 void Hemisphere::Divide(Vec3 a, Vec3 b, Vec3 c, int depth) {
+  levels_[depth_ - depth].emplace_back(a, b, c);
   if (depth == 0) {
-    pyramids_.emplace_back(a, b, c);
     sides_.push_back({{PlaneToward(a, b, c), PlaneToward(b, c, a), PlaneToward(c, a, b)}});
     return;
   }

@@ -1,5 +1,7 @@
 #include "radiosity/pyramid/spherical_triangle.h"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -31,33 +33,100 @@ double HighestOnArc(Vec3 p, Vec3 q) {
   return std::max(p.z, q.z);
 }
 
-}  // namespace
+// Four lanes of doubles; operators and ?: work lane by lane.
+using Double4 = double __attribute__((vector_size(32)));
 
-SineCosine SinCos(double x) {
+inline double Root(double x) { return std::sqrt(x); }
+inline Double4 Root(Double4 x) { return _mm256_sqrt_pd(x); }
+
+template <typename Real>
+struct Vector {
+  Real x, y, z;
+  friend Vector operator+(Vector p, Vector q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
+  friend Vector operator-(Vector p, Vector q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
+  friend Vector operator*(Real s, Vector p) { return {s * p.x, s * p.y, s * p.z}; }
+};
+template <typename Real>
+Real Dot(Vector<Real> p, Vector<Real> q) {
+  return p.x * q.x + p.y * q.y + p.z * q.z;
+}
+
+template <typename Real>
+struct SineCosineOf {
+  Real sine, cosine;
+};
+
+template <typename Real>
+SineCosineOf<Real> SeriesSinCos(Real x) {
   // Taylor series of an eighth of the angle, doubled three times.
-  const double t = x * 0.125, t2 = t * t;
-  double s =
+  const Real t = x * 0.125, t2 = t * t;
+  Real s =
       t * (1 + t2 * (-1.0 / 6 +
                      t2 * (1.0 / 120 + t2 * (-1.0 / 5040 + t2 * (1.0 / 362880 - t2 / 39916800)))));
-  double c =
+  Real c =
       1 + t2 * (-0.5 +
                 t2 * (1.0 / 24 + t2 * (-1.0 / 720 + t2 * (1.0 / 40320 -
                                                           t2 * (1.0 / 3628800 - t2 / 479001600)))));
   for (int doubling = 0; doubling < 3; ++doubling) {
-    const double sine = 2 * s * c;
+    const Real sine = 2 * s * c;
     c = (c - s) * (c + s);
     s = sine;
   }
   return {s, c};
 }
 
-SphericalTriangle::SphericalTriangle(Vec3 a, Vec3 b, Vec3 c) : a_(a), b_(b), c_(c) {
+// ArvoConstants of one triangle, or of one a lane.
+template <typename Real>
+struct Constants {
+  Vector<Real> a, b, c_toward;
+  Real sin_alpha, cos_alpha, cos_edge_c, solid_angle;
+};
+
+// Arv95, figure 3: the sub-triangle A B C' of area xi1 Omega gives C', then a point on B C'.
+template <typename Real>
+Vector<Real> Arvo(const Constants<Real>& k, Real xi1, Real xi2) {
+  const Real zero = xi1 - xi1, one = zero + 1;
+  const SineCosineOf<Real> area = SeriesSinCos(xi1 * k.solid_angle);
+  const Real s = area.sine * k.cos_alpha - area.cosine * k.sin_alpha;  // sin(A^ - alpha)
+  const Real t = area.cosine * k.cos_alpha + area.sine * k.sin_alpha;  // cos(A^ - alpha)
+  const Real u = t - k.cos_alpha;
+  const Real v = s + k.sin_alpha * k.cos_edge_c;
+  const Real denominator = (v * s + u * t) * k.sin_alpha;
+  // xi1 = 0 makes the sub-triangle vanish: C' is A.
+  const Real ratio =
+      ((v * t - u * s) * k.cos_alpha - v) / (denominator == zero ? one : denominator);
+  const Real low = ratio < -one ? -one : ratio;
+  const Real q = denominator == zero ? one : low > one ? one : low;
+  const Real across = 1 - q * q;
+  const Vector<Real> c_sub = q * k.a + Root(across > zero ? across : zero) * k.c_toward;
+  const Real to_b = Dot(c_sub, k.b);
+  const Real z = 1 - xi2 * (1 - to_b);
+  const Vector<Real> toward = c_sub - to_b * k.b;
+  const Real length2 = Dot(toward, toward), beside = 1 - z * z;
+  // C' = B leaves no direction to go: the point is B.
+  const Real reach = (beside > zero ? beside : zero) / (length2 > zero ? length2 : one);
+  const Real along = length2 > zero ? z : one;
+  return along * k.b + Root(length2 > zero ? reach : zero) * toward;
+}
+
+Vector<double> ToVector(Vec3 v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+SineCosine SinCos(double x) {
+  const SineCosineOf<double> result = SeriesSinCos(x);
+  return {result.sine, result.cosine};
+}
+
+SphericalTriangle::SphericalTriangle(Vec3 a, Vec3 b, Vec3 c) : c_(c) {
   const double alpha = AngleAt(a, b, c);
-  solid_angle_ = alpha + AngleAt(b, c, a) + AngleAt(c, a, b) - std::numbers::pi;
-  sin_alpha_ = std::sin(alpha);
-  cos_alpha_ = std::cos(alpha);
-  cos_edge_c_ = Dot(a, b);
-  c_toward_ = OrthogonalPart(c, a);
+  arvo_.a = a;
+  arvo_.b = b;
+  arvo_.c_toward = OrthogonalPart(c, a);
+  arvo_.sin_alpha = std::sin(alpha);
+  arvo_.cos_alpha = std::cos(alpha);
+  arvo_.cos_edge_c = Dot(a, b);
+  arvo_.solid_angle = alpha + AngleAt(b, c, a) + AngleAt(c, a, b) - std::numbers::pi;
   flux_fraction_ =
       (LambertEdge(a, b) + LambertEdge(b, c) + LambertEdge(c, a)) / (2 * std::numbers::pi);
   const bool holds_pole = Cross(a, b).z >= 0 && Cross(b, c).z >= 0 && Cross(c, a).z >= 0;
@@ -68,23 +137,40 @@ SphericalTriangle::SphericalTriangle(Vec3 a, Vec3 b, Vec3 c) : a_(a), b_(b), c_(
 }
 
 Vec3 SphericalTriangle::SampleSolidAngle(double xi1, double xi2) const {
-  // Arv95, figure 3: the sub-triangle A B C' of area xi1 Omega gives C', then a point on B C'.
-  const SineCosine area = SinCos(xi1 * solid_angle_);
-  const double s = area.sine * cos_alpha_ - area.cosine * sin_alpha_;  // sin(A^ - alpha)
-  const double t = area.cosine * cos_alpha_ + area.sine * sin_alpha_;  // cos(A^ - alpha)
-  const double u = t - cos_alpha_;
-  const double v = s + sin_alpha_ * cos_edge_c_;
-  const double denominator = (v * s + u * t) * sin_alpha_;
-  // xi1 = 0 makes the sub-triangle vanish: C' is A.
-  const double q = denominator == 0
-                       ? 1.0
-                       : std::clamp(((v * t - u * s) * cos_alpha_ - v) / denominator, -1.0, 1.0);
-  const Vec3 c_sub = q * a_ + std::sqrt(std::max(0.0, 1 - q * q)) * c_toward_;
-  const double z = 1 - xi2 * (1 - Dot(c_sub, b_));
-  const Vec3 toward = c_sub - Dot(c_sub, b_) * b_;
-  const double length2 = Dot(toward, toward);
-  if (length2 <= 0) return b_;
-  return z * b_ + std::sqrt(std::max(0.0, 1 - z * z) / length2) * toward;
+  const ArvoConstants& k = arvo_;
+  const Vector<double> d = Arvo<double>({ToVector(k.a), ToVector(k.b), ToVector(k.c_toward),
+                                         k.sin_alpha, k.cos_alpha, k.cos_edge_c, k.solid_angle},
+                                        xi1, xi2);
+  return {d.x, d.y, d.z};
+}
+
+void SampleSolidAngle8(const SphericalTriangle* const triangles[8], const float xi1[8],
+                       const float xi2[8], Directions8& out) {
+  for (int first = 0; first < 8; first += 4) {
+    const ArvoConstants* k[4];
+    for (int lane = 0; lane < 4; ++lane) k[lane] = &triangles[first + lane]->arvo();
+    const auto gather = [&](auto get) {
+      return Double4{get(*k[0]), get(*k[1]), get(*k[2]), get(*k[3])};
+    };
+    const auto gather3 = [&](Vec3 ArvoConstants::*member) {
+      return Vector<Double4>{gather([&](const ArvoConstants& c) { return (c.*member).x; }),
+                             gather([&](const ArvoConstants& c) { return (c.*member).y; }),
+                             gather([&](const ArvoConstants& c) { return (c.*member).z; })};
+    };
+    const auto gather1 = [&](double ArvoConstants::*member) {
+      return gather([&](const ArvoConstants& c) { return c.*member; });
+    };
+    const Constants<Double4> constants{
+        gather3(&ArvoConstants::a),          gather3(&ArvoConstants::b),
+        gather3(&ArvoConstants::c_toward),   gather1(&ArvoConstants::sin_alpha),
+        gather1(&ArvoConstants::cos_alpha),  gather1(&ArvoConstants::cos_edge_c),
+        gather1(&ArvoConstants::solid_angle)};
+    const Vector<Double4> d = Arvo<Double4>(constants, _mm256_cvtps_pd(_mm_load_ps(xi1 + first)),
+                                            _mm256_cvtps_pd(_mm_load_ps(xi2 + first)));
+    _mm256_store_pd(out.x + first, d.x);
+    _mm256_store_pd(out.y + first, d.y);
+    _mm256_store_pd(out.z + first, d.z);
+  }
 }
 
 }  // namespace lambert

@@ -57,16 +57,48 @@ inline void PutDirection(const EmitterFrame& f, float x, float y, float z, RayBa
   batch.direction_z[slot] = x * f.x[2] + y * f.y[2] + z * f.z[2];
 }
 
+// A point of the unit disk lifted to the hemisphere: uniform there, cosine law here.
+inline void PutDiskDirection(const EmitterFrame& f, Disk disk, RayBatch& batch, int slot) {
+  const float z = std::sqrt(std::max(0.0f, 1 - disk.x * disk.x - disk.y * disk.y));
+  PutDirection(f, disk.x, disk.y, z, batch, slot);
+}
+
 // Fills rays begin .. end in groups of eight: `place(slot, numbers, lane)` for each lane, also for
 // those after the end, which the next group overwrites: a fixed count lets the compiler vectorise.
 template <typename Place>
-inline void ForEachRay(const RandomStream& stream, uint32_t begin, uint32_t end, RayBatch& batch,
+inline void ForEachRay(const RayNumbers& source, uint32_t begin, uint32_t end, RayBatch& batch,
                        Place place) {
-  RandomNumbers8 random;
+  RandomNumbers8 numbers;
   for (uint32_t ray = begin; ray < end; ray += 8) {
-    FillRandomNumbers(stream, ray, random);
+    source.Fill(ray, numbers);
     const int first = batch.size;
-    for (int lane = 0; lane < 8; ++lane) place(first + lane, random, lane);
+    for (int lane = 0; lane < 8; ++lane) place(first + lane, numbers, lane);
+    batch.size += static_cast<int>(std::min<uint32_t>(8, end - ray));
+  }
+}
+
+// The same for rays through pyramids: `directions(ray, triangles, numbers, out)` makes eight.
+template <typename Directions>
+inline void ForEachPyramidRay(const EmitterFrame& frame, PyramidOfRay pyramids,
+                              const RayNumbers& source, uint32_t begin, uint32_t end,
+                              RayBatch& batch, Directions directions) {
+  RandomNumbers8 numbers;
+  Directions8 d;
+  for (uint32_t ray = begin; ray < end; ray += 8) {
+    source.Fill(ray, numbers);
+    const SphericalTriangle* triangles[8];
+    for (uint32_t lane = 0; lane < 8; ++lane) {
+      triangles[lane] = pyramids[std::min(ray + lane, end - 1) - begin];
+    }
+    directions(ray, triangles, numbers, d);
+    const int first = batch.size;
+    for (int lane = 0; lane < 8; ++lane) {
+      const int slot = first + lane;
+      PutOrigin(frame, TrianglePoint(numbers.numbers[0][lane], numbers.numbers[1][lane]), batch,
+                slot);
+      PutDirection(frame, static_cast<float>(d.x[lane]), static_cast<float>(d.y[lane]),
+                   static_cast<float>(d.z[lane]), batch, slot);
+    }
     batch.size += static_cast<int>(std::min<uint32_t>(8, end - ray));
   }
 }
@@ -119,19 +151,31 @@ EmitterFrame Emitters::Frame(PatchIndex emitter) const {
   return f;
 }
 
-void AppendCosineRays(const EmitterFrame& frame, const RandomStream& stream, uint32_t begin,
+void AppendCosineRays(const EmitterFrame& frame, const RayNumbers& numbers, uint32_t begin,
                       uint32_t end, RayBatch& batch) {
-  ForEachRay(stream, begin, end, batch, [&](int slot, const RandomNumbers8& random, int lane) {
+  ForEachRay(numbers, begin, end, batch, [&](int slot, const RandomNumbers8& random, int lane) {
     PutOrigin(frame, TrianglePoint(random.numbers[0][lane], random.numbers[1][lane]), batch, slot);
-    const Disk disk = ConcentricDisk(random.numbers[2][lane], random.numbers[3][lane]);
-    const float z = std::sqrt(std::max(0.0f, 1 - disk.x * disk.x - disk.y * disk.y));
-    PutDirection(frame, disk.x, disk.y, z, batch, slot);
+    PutDiskDirection(frame, ConcentricDisk(random.numbers[2][lane], random.numbers[3][lane]), batch,
+                     slot);
   });
 }
 
-void AppendSphereRays(const float position[3], const RandomStream& stream, uint32_t begin,
+void AppendGridRays(const EmitterFrame& frame, int side, const int32_t* cells,
+                    const RayNumbers& numbers, uint32_t begin, uint32_t end, RayBatch& batch) {
+  const int before = batch.size, last = static_cast<int>(end - begin) - 1;
+  const float width = 1.0f / static_cast<float>(side);
+  ForEachRay(numbers, begin, end, batch, [&](int slot, const RandomNumbers8& random, int lane) {
+    PutOrigin(frame, TrianglePoint(random.numbers[0][lane], random.numbers[1][lane]), batch, slot);
+    const int32_t cell = cells[std::min(slot - before, last)];
+    const float u = (static_cast<float>(cell % side) + random.numbers[2][lane]) * width;
+    const float v = (static_cast<float>(cell / side) + random.numbers[3][lane]) * width;
+    PutDiskDirection(frame, ConcentricDisk(u, v), batch, slot);
+  });
+}
+
+void AppendSphereRays(const float position[3], const RayNumbers& numbers, uint32_t begin,
                       uint32_t end, RayBatch& batch) {
-  ForEachRay(stream, begin, end, batch, [&](int slot, const RandomNumbers8& random, int lane) {
+  ForEachRay(numbers, begin, end, batch, [&](int slot, const RandomNumbers8& random, int lane) {
     const double z = 1 - 2.0 * random.numbers[2][lane];
     const SineCosine angle = SinCos(std::numbers::pi * (2.0 * random.numbers[3][lane] - 1));
     const double radius = std::sqrt(std::max(0.0, 1 - z * z));
@@ -144,43 +188,51 @@ void AppendSphereRays(const float position[3], const RandomStream& stream, uint3
   });
 }
 
-void AppendSolidAngleRays(const EmitterFrame& frame, const SphericalTriangle& pyramid,
-                          const RandomStream& stream, uint32_t begin, uint32_t end, RayBatch& batch,
+void AppendSolidAngleRays(const EmitterFrame& frame, PyramidOfRay pyramids,
+                          const RayNumbers& numbers, uint32_t begin, uint32_t end, RayBatch& batch,
                           float* cosine) {
-  ForEachRay(stream, begin, end, batch, [&](int slot, const RandomNumbers8& random, int lane) {
-    PutOrigin(frame, TrianglePoint(random.numbers[0][lane], random.numbers[1][lane]), batch, slot);
-    const Vec3 d = pyramid.SampleSolidAngle(random.numbers[2][lane], random.numbers[3][lane]);
-    PutDirection(frame, static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z),
-                 batch, slot);
-    cosine[slot] = static_cast<float>(std::max(0.0, d.z));
-  });
+  ForEachPyramidRay(frame, pyramids, numbers, begin, end, batch,
+                    [&](uint32_t, const SphericalTriangle* const triangles[8],
+                        const RandomNumbers8& random, Directions8& d) {
+                      SampleSolidAngle8(triangles, random.numbers[2], random.numbers[3], d);
+                      for (int lane = 0; lane < 8; ++lane) {
+                        cosine[batch.size + lane] = static_cast<float>(std::max(0.0, d.z[lane]));
+                      }
+                    });
 }
 
-Vec3 SampleProjectedAngle(const SphericalTriangle& pyramid, const RandomStream& stream,
-                          uint32_t ray, float xi1, float xi2) {
-  Vec3 d = pyramid.SampleSolidAngle(xi1, xi2);
-  // Accepted with probability cos theta / max cos theta; the bound keeps a broken triangle from
-  // looping for ever and is never reached otherwise (acceptance is over 1/4).
-  for (uint32_t retry = 0; retry < 1000; ++retry) {
-    const auto numbers = RandomNumbers(stream, ray, RandomPurpose::kRetry, retry);
-    if (numbers[2] * pyramid.max_cosine() < d.z) break;
-    d = pyramid.SampleSolidAngle(numbers[0], numbers[1]);
-  }
-  return d;
-}
-
-void AppendProjectedAngleRays(const EmitterFrame& frame, const SphericalTriangle& pyramid,
-                              const RandomStream& stream, uint32_t begin, uint32_t end,
+void AppendProjectedAngleRays(const EmitterFrame& frame, PyramidOfRay pyramids,
+                              const RayNumbers& numbers, uint32_t begin, uint32_t end,
                               RayBatch& batch) {
-  const int first = batch.size;
-  ForEachRay(stream, begin, end, batch, [&](int slot, const RandomNumbers8& random, int lane) {
-    PutOrigin(frame, TrianglePoint(random.numbers[0][lane], random.numbers[1][lane]), batch, slot);
-    const uint32_t ray = begin + static_cast<uint32_t>(slot - first);
-    const Vec3 d = SampleProjectedAngle(pyramid, stream, ray, random.numbers[2][lane],
-                                        random.numbers[3][lane]);
-    PutDirection(frame, static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z),
-                 batch, slot);
-  });
+  ForEachPyramidRay(frame, pyramids, numbers, begin, end, batch,
+                    [&](uint32_t ray, const SphericalTriangle* const triangles[8],
+                        const RandomNumbers8& random, Directions8& d) {
+                      SampleSolidAngle8(triangles, random.numbers[2], random.numbers[3], d);
+                      double highest[8];
+                      for (int lane = 0; lane < 8; ++lane)
+                        highest[lane] = triangles[lane]->max_cosine();
+                      // Accepted with probability cos theta / max cos theta; the bound keeps a
+                      // broken triangle from looping for ever and is never reached otherwise
+                      // (acceptance is over 1/4).
+                      uint32_t open = 0xFF;
+                      for (uint32_t retry = 0; retry < 1000 && open != 0; ++retry) {
+                        RandomNumbers8 again;
+                        FillRandomNumbers(numbers.stream(), ray, again, RandomPurpose::kRetry,
+                                          retry);
+                        Directions8 next;
+                        SampleSolidAngle8(triangles, again.numbers[0], again.numbers[1], next);
+                        for (int lane = 0; lane < 8; ++lane) {
+                          if ((open >> lane & 1) == 0) continue;
+                          if (again.numbers[2][lane] * highest[lane] < d.z[lane]) {
+                            open &= ~(1u << lane);
+                            continue;
+                          }
+                          d.x[lane] = next.x[lane];
+                          d.y[lane] = next.y[lane];
+                          d.z[lane] = next.z[lane];
+                        }
+                      }
+                    });
 }
 
 }  // namespace lambert

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "radiosity/core/philox.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/pyramid/spherical_triangle.h"
+#include "radiosity/shoot/ray_numbers.h"
 #include "radiosity/trace/ray_batch.h"
 #include "radiosity/trace/ray_scene.h"
 
@@ -41,23 +41,27 @@ class Emitters {
 // Each appends rays [begin, end) of a visit to the batch. Requires: room for them.
 
 // Uniform on the patch, cosine law (figure 2 of JPS00; the direction by SC97's concentric map).
-void AppendCosineRays(const EmitterFrame& frame, const RandomStream& stream, uint32_t begin,
+void AppendCosineRays(const EmitterFrame& frame, const RayNumbers& numbers, uint32_t begin,
                       uint32_t end, RayBatch& batch);
 // Uniform over the sphere.
-void AppendSphereRays(const float position[3], const RandomStream& stream, uint32_t begin,
+void AppendSphereRays(const float position[3], const RayNumbers& numbers, uint32_t begin,
                       uint32_t end, RayBatch& batch);
-// Uniform on the patch, uniform in the solid angle of `pyramid` (figure 7). Writes cos theta of the
-// ray in each slot of the batch to cosine[slot] (RayBatch::kSlots values).
-void AppendSolidAngleRays(const EmitterFrame& frame, const SphericalTriangle& pyramid,
-                          const RandomStream& stream, uint32_t begin, uint32_t end, RayBatch& batch,
+
+// Ray begin + k starts uniformly on the patch and leaves through *pyramids[k].
+using PyramidOfRay = const SphericalTriangle* const*;
+// Uniform in the solid angle of the pyramid (figure 7). Writes cos theta of the ray in each slot of
+// the batch to cosine[slot] (RayBatch::kSlots values).
+void AppendSolidAngleRays(const EmitterFrame& frame, PyramidOfRay pyramids,
+                          const RayNumbers& numbers, uint32_t begin, uint32_t end, RayBatch& batch,
                           float* cosine);
 // The same with density proportional to cos theta inside the pyramid, by rejection.
-void AppendProjectedAngleRays(const EmitterFrame& frame, const SphericalTriangle& pyramid,
-                              const RandomStream& stream, uint32_t begin, uint32_t end,
+void AppendProjectedAngleRays(const EmitterFrame& frame, PyramidOfRay pyramids,
+                              const RayNumbers& numbers, uint32_t begin, uint32_t end,
                               RayBatch& batch);
 
-// A direction in `pyramid` with density ~ cos theta for one ray, by rejection from Arvo's sampling.
-Vec3 SampleProjectedAngle(const SphericalTriangle& pyramid, const RandomStream& stream,
-                          uint32_t ray, float xi1, float xi2);
+// Ray begin + k leaves through cell cells[k] of a ConcentricGrid of `side` by `side` cells, with
+// density proportional to cos theta inside it.
+void AppendGridRays(const EmitterFrame& frame, int side, const int32_t* cells,
+                    const RayNumbers& numbers, uint32_t begin, uint32_t end, RayBatch& batch);
 
 }  // namespace lambert

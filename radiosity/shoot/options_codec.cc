@@ -2,62 +2,73 @@
 
 #include "radiosity/core/bytes.h"
 #include "radiosity/core/error.h"
+#include "radiosity/shoot/settings.h"
 
 namespace lambert {
 namespace {
 
-constexpr uint32_t kOptionsMagic = 0x314F534C;  // "LSO1"
+constexpr uint32_t kOptionsMagic = 0x324F534C;  // "LSO2"
+constexpr uint32_t kMaxTexts = 1024, kMaxTextBytes = 4096;
 
-struct OptionsBytes {
+struct Header {
   uint32_t magic = kOptionsMagic;
-  uint8_t method = 0, sampling = 0, count_black = 0, use_clusters = 0;
-  int32_t initial = 0, split = 0, depth = 0, reserved = 0;
-  double alpha1 = 0, alpha2 = 0;
-  int64_t min_rays = 0;
+  uint32_t texts = 0;
 };
-static_assert(sizeof(OptionsBytes) == 48);
+
+absl::Status Corrupt() {
+  return MakeError(absl::StatusCode::kDataLoss,
+                   {"OPTIONS_INVALID", "shoot options", "the bytes are not shoot options",
+                    "use programs of one version"});
+}
 
 }  // namespace
 
 std::string EncodeShootOptions(const ShootOptions& options) {
-  const PyramidOptions& p = options.pyramids;
-  OptionsBytes bytes;
-  bytes.method = static_cast<uint8_t>(options.method);
-  bytes.sampling = static_cast<uint8_t>(p.sampling);
-  bytes.count_black = p.count_black;
-  bytes.use_clusters = p.use_clusters;
-  bytes.initial = p.initial;
-  bytes.split = p.split;
-  bytes.depth = p.depth;
-  bytes.alpha1 = p.alpha1;
-  bytes.alpha2 = p.alpha2;
-  bytes.min_rays = p.min_rays;
+  std::vector<std::string> texts = {"method", MethodName(options.method)};
+  for (const auto& [name, text] : ChangedSettings(options)) {
+    texts.push_back(name);
+    texts.push_back(text);
+  }
+  for (const std::string& node : options.region) {
+    texts.push_back("region");
+    texts.push_back(node);
+  }
   ByteWriter writer;
-  writer.Put(bytes);
+  writer.Put(Header{kOptionsMagic, static_cast<uint32_t>(texts.size())});
+  for (const std::string& text : texts) {
+    writer.Put(static_cast<uint32_t>(text.size()));
+    writer.PutArray(text.data(), text.size());
+  }
   return writer.Take();
 }
 
 absl::StatusOr<ShootOptions> DecodeShootOptions(const std::string& bytes) {
   ByteReader reader(bytes);
-  OptionsBytes read;
-  if (!reader.Get(&read) || !reader.Complete() || read.magic != kOptionsMagic ||
-      read.method > static_cast<uint8_t>(Method::kPhs) ||
-      read.sampling > static_cast<uint8_t>(PyramidSampling::kProjectedAngle)) {
-    return MakeError(absl::StatusCode::kDataLoss,
-                     {"OPTIONS_INVALID", "shoot options", "the bytes are not shoot options",
-                      "use programs of one version"});
+  Header header;
+  if (!reader.Get(&header) || header.magic != kOptionsMagic || header.texts % 2 != 0 ||
+      header.texts > kMaxTexts) {
+    return Corrupt();
   }
+  std::vector<std::string> texts;
+  for (uint32_t k = 0; k < header.texts; ++k) {
+    uint32_t size = 0;
+    if (!reader.Get(&size) || size > kMaxTextBytes || size > reader.remaining()) return Corrupt();
+    texts.emplace_back(size, '\0');
+    reader.GetArray(texts.back().data(), size);
+  }
+  if (!reader.Complete()) return Corrupt();
   ShootOptions options;
-  options.method = static_cast<Method>(read.method);
-  options.pyramids = {read.initial,
-                      read.split,
-                      read.depth,
-                      read.alpha1,
-                      read.alpha2,
-                      static_cast<PyramidSampling>(read.sampling),
-                      read.count_black != 0,
-                      read.use_clusters != 0,
-                      read.min_rays};
+  for (size_t k = 0; k < texts.size(); k += 2) {
+    if (texts[k] == "region") {
+      options.region.push_back(texts[k + 1]);
+    } else if (texts[k] == "method") {
+      absl::StatusOr<Method> method = ParseMethod(texts[k + 1]);
+      if (!method.ok()) return Corrupt();
+      options.method = *method;
+    } else if (!ApplySetting(texts[k], texts[k + 1], options).ok()) {
+      return Corrupt();
+    }
+  }
   if (absl::Status status = options.Validate(); !status.ok()) return status;
   return options;
 }

@@ -7,21 +7,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "radiosity/core/error.h"
 #include "radiosity/pyramid/density.h"
 #include "radiosity/shoot/arrivals.h"
-#include "radiosity/shoot/density_table.h"
+#include "radiosity/shoot/directions.h"
 #include "radiosity/shoot/emitter.h"
+#include "radiosity/shoot/flight.h"
+#include "radiosity/shoot/importance.h"
+#include "radiosity/shoot/probe.h"
 #include "radiosity/trace/ray_scene.h"
 
 namespace lambert {
 namespace {
 
 // Changes whenever the same unit would give other bytes.
-constexpr char kCodeVersion[] = "shoot-1";
+constexpr char kCodeVersion[] = "shoot-2";
 
 // Flushes denormals while it lives: they are slow, and different where a thread forgets to.
 class DenormalsFlushed {
@@ -42,63 +44,6 @@ double ThreadCpuSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Rays of any emitters on their way to being traced and deposited together.
-class Flight {
- public:
-  Flight(const RayScene& scene, Arrivals& arrivals, UnitResult& result)
-      : scene_(scene), arrivals_(arrivals), result_(result) {}
-
-  RayBatch& batch() { return batch_; }
-  float* cosine() { return cosine_; }
-  // Rays that fit before the batch has to land; lands it when none fits.
-  uint32_t Room() {
-    if (batch_.size == RayBatch::kCapacity) Land();
-    return static_cast<uint32_t>(RayBatch::kCapacity - batch_.size);
-  }
-  void SetFlux(int slot, int channel, int64_t quanta) { flux_[channel][slot] = quanta; }
-
-  // Traces, deposits and empties the batch.
-  void Land() {
-    scene_.Trace(batch_);
-    constexpr int kAhead = 16;  // deposits are random accesses: fetch them early
-    for (int k = 0; k < batch_.size; ++k) {
-      const PatchIndex next = batch_.hit[std::min(k + kAhead, batch_.size - 1)];
-      if (next >= 0) arrivals_.Prefetch(next);
-      Arrive(batch_.hit[k], flux_[0][k], flux_[1][k], flux_[2][k]);
-    }
-    result_.rays += batch_.size;
-    batch_.size = 0;
-  }
-
- private:
-  void Arrive(PatchIndex hit, int64_t r, int64_t g, int64_t b) {
-    result_.shot[0] += r;
-    result_.shot[1] += g;
-    result_.shot[2] += b;
-    if (hit >= 0) {
-      arrivals_.Add(hit, r, g, b);
-      return;
-    }
-    result_.escaped[0] += r;
-    result_.escaped[1] += g;
-    result_.escaped[2] += b;
-  }
-
-  const RayScene& scene_;
-  Arrivals& arrivals_;
-  UnitResult& result_;
-  RayBatch batch_;
-  alignas(64) float cosine_[RayBatch::kSlots];
-  alignas(64) int64_t flux_[3][RayBatch::kSlots];
-};
-
-// Quanta dealt over rays exactly: the quotient each, one extra to the first `remainder` rays.
-struct Deal {
-  int64_t quotient, remainder;
-  Deal(int64_t quanta, int64_t rays) : quotient(quanta / rays), remainder(quanta % rays) {}
-  int64_t Of(int64_t ray) const { return quotient + (ray < remainder ? 1 : 0); }
-};
-
 class EmbreeShooter : public Shooter {
  public:
   EmbreeShooter(std::shared_ptr<const PatchSet> patches, const ShootOptions& options,
@@ -107,31 +52,42 @@ class EmbreeShooter : public Shooter {
         options_(options),
         scene_(std::move(scene)),
         emitters_(*patches_, *scene_),
-        arrivals_(patches_->size()) {
-    if (options_.method == Method::kPhs) {
-      densities_ = std::make_unique<DensityTable>(*patches_, options_.pyramids);
-    }
-  }
+        arrivals_(patches_->size()) {}
 
+  absl::Status Prepare();
   absl::StatusOr<UnitResult> Run(const WorkUnit& unit) const override;
 
  private:
+  // The rays of a visit that have directions in common: rays [first, first + count).
+  struct Stage {
+    uint32_t first = 0, count = 0;
+    Quanta quanta{};  // that they share
+  };
+
   absl::Status Check(const WorkUnit& unit) const;
-  void ShootVisit(const Visit& visit, const RandomStream& stream, Flight& flight) const;
-  void ShootPyramids(const Visit& visit, const RandomStream& stream, Flight& flight) const;
-  // Rays [begin, end) of one pyramid; `first`: its first ray within the visit; `share`: its rays,
-  // or the expected number where that is under 1.
-  void ShootPyramid(const EmitterFrame& frame, int pyramid, const Visit& visit,
-                    const RandomStream& stream, uint32_t first, uint32_t begin, uint32_t end,
-                    double share, Flight& flight) const;
+  void ShootVisit(const Visit& visit, const RayNumbers& numbers, Flight& flight) const;
+  void ShootDivided(const Visit& visit, const RayNumbers& numbers, Flight& flight) const;
+  void ShootProbing(const Visit& visit, const RayNumbers& numbers, Flight& flight) const;
+  void ShootStage(const Visit& visit, const Stage& stage, const Directions& directions,
+                  const std::vector<uint32_t>& rays_of_cell, const RayNumbers& numbers,
+                  Flight& flight) const;
 
   std::shared_ptr<const PatchSet> patches_;
   const ShootOptions options_;
   std::unique_ptr<RayScene> scene_;
   const Emitters emitters_;
   mutable ArrivalsPool arrivals_;
-  std::unique_ptr<DensityTable> densities_;
+  std::unique_ptr<DirectionTable> directions_;
 };
+
+absl::Status EmbreeShooter::Prepare() {
+  if (!UsesPyramids(options_.method)) return absl::OkStatus();
+  absl::StatusOr<std::vector<double>> worth = HitWorth(*patches_, *scene_, emitters_, options_);
+  if (!worth.ok()) return worth.status();
+  directions_ =
+      std::make_unique<DirectionTable>(*patches_, *scene_, emitters_, options_, *std::move(worth));
+  return absl::OkStatus();
+}
 
 absl::Status EmbreeShooter::Check(const WorkUnit& unit) const {
   for (const Visit& v : unit.visits) {
@@ -160,12 +116,15 @@ absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
   for (const Visit& visit : unit.visits) {
     const RandomStream stream{unit.seed, static_cast<uint32_t>(visit.emitter), unit.step,
                               unit.pass};
-    const bool pyramids = densities_ != nullptr && !emitters_.IsPointLight(visit.emitter) &&
-                          visit.ray_count >= densities_->min_rays();
-    if (pyramids) {
-      ShootPyramids(visit, stream, *flight);
+    const RayNumbers numbers(stream, options_.sequence);
+    const bool divided = directions_ != nullptr && !emitters_.IsPointLight(visit.emitter) &&
+                         visit.ray_count >= directions_->min_rays();
+    if (!divided) {
+      ShootVisit(visit, numbers, *flight);
+    } else if (options_.method == Method::kHs97) {
+      ShootProbing(visit, numbers, *flight);
     } else {
-      ShootVisit(visit, stream, *flight);
+      ShootDivided(visit, numbers, *flight);
     }
   }
   flight->Land();
@@ -175,7 +134,7 @@ absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
   return result;
 }
 
-void EmbreeShooter::ShootVisit(const Visit& visit, const RandomStream& stream,
+void EmbreeShooter::ShootVisit(const Visit& visit, const RayNumbers& numbers,
                                Flight& flight) const {
   if (visit.ray_begin == visit.ray_end) return;
   const bool point = emitters_.IsPointLight(visit.emitter);
@@ -187,9 +146,9 @@ void EmbreeShooter::ShootVisit(const Visit& visit, const RandomStream& stream,
     const uint32_t until = ray + std::min(flight.Room(), visit.ray_end - ray);
     const int slot = flight.batch().size;
     if (point) {
-      AppendSphereRays(emitters_.Position(visit.emitter), stream, ray, until, flight.batch());
+      AppendSphereRays(emitters_.Position(visit.emitter), numbers, ray, until, flight.batch());
     } else {
-      AppendCosineRays(frame, stream, ray, until, flight.batch());
+      AppendCosineRays(frame, numbers, ray, until, flight.batch());
     }
     for (int c = 0; c < 3; ++c) {
       for (uint32_t k = ray; k < until; ++k) {
@@ -200,58 +159,90 @@ void EmbreeShooter::ShootVisit(const Visit& visit, const RandomStream& stream,
   }
 }
 
-void EmbreeShooter::ShootPyramids(const Visit& visit, const RandomStream& stream,
-                                  Flight& flight) const {
-  const std::vector<float> densities = densities_->Get(visit.emitter);
-  const double offset = RandomNumbers(stream, 0, RandomPurpose::kPyramidOffset)[0];
-  const std::vector<uint32_t> rays = PyramidRays(densities, visit.ray_count, offset);
-  double sum = 0;
-  for (float density : densities) sum += density;
-  const EmitterFrame frame = emitters_.Frame(visit.emitter);
-  uint32_t first = 0;
-  for (size_t p = 0; p < rays.size(); ++p) {
-    const uint32_t begin = std::max(first, visit.ray_begin);
-    const uint32_t end = std::min(first + rays[p], visit.ray_end);
-    const double expected = densities[p] / sum * visit.ray_count;
-    // A pyramid that expects less than one ray gets one with that probability, which then carries
-    // the flux of all the times it gets none.
-    const double share = expected < 1 ? expected : rays[p];
-    if (begin < end) {
-      ShootPyramid(frame, static_cast<int>(p), visit, stream, first, begin, end, share, flight);
-    }
-    first += rays[p];
-  }
+void EmbreeShooter::ShootDivided(const Visit& visit, const RayNumbers& numbers,
+                                 Flight& flight) const {
+  const std::shared_ptr<const Directions> directions = directions_->Get(visit.emitter);
+  const double offset = RandomNumbers(numbers.stream(), 0, RandomPurpose::kPyramidOffset)[0];
+  ShootStage(visit, {0, visit.ray_count, visit.quanta}, *directions,
+             CellRays(directions->densities, visit.ray_count, offset), numbers, flight);
 }
 
-void EmbreeShooter::ShootPyramid(const EmitterFrame& frame, int p, const Visit& visit,
-                                 const RandomStream& stream, uint32_t first, uint32_t begin,
-                                 uint32_t end, double share, Flight& flight) const {
-  const SphericalTriangle& pyramid = densities_->hemisphere().pyramid(p);
-  const bool weighted = options_.pyramids.sampling == PyramidSampling::kSolidAngle;
-  const int64_t rays = std::max<int64_t>(1, std::llround(share));
-  for (uint32_t ray = begin; ray < end;) {
-    const uint32_t until = ray + std::min(flight.Room(), end - ray);
-    const int slot = flight.batch().size;
-    if (weighted) {
-      AppendSolidAngleRays(frame, pyramid, stream, ray, until, flight.batch(), flight.cosine());
-    } else {
-      AppendProjectedAngleRays(frame, pyramid, stream, ray, until, flight.batch());
-    }
-    for (int c = 0; c < 3; ++c) {
-      const double phi = static_cast<double>(visit.quanta[c]);
-      // Flux of one ray of pyramid p (JPS00, 3.2):  phi_ray = Phi_i cos(theta) Omega_p / (pi r_ip)
-      const double per_cosine = phi * pyramid.solid_angle() / (std::numbers::pi * share);
-      // With directions ~ cos theta every ray of p carries the same:  phi_ray = Phi_i f_p / r_ip
-      const double flux = phi * pyramid.flux_fraction() * static_cast<double>(rays) / share;
-      const Deal deal(std::llround(flux), rays);
-      for (uint32_t k = ray; k < until; ++k) {
-        const int s = slot + static_cast<int>(k - ray);
-        flight.SetFlux(
-            s, c, weighted ? std::llround(per_cosine * flight.cosine()[s]) : deal.Of(k - first));
+// The first rays go by the cosine law and tell what is there; the others follow what they saw. Each
+// kind carries the flux of its share of the rays, so both are unbiased whatever was seen.
+void EmbreeShooter::ShootProbing(const Visit& visit, const RayNumbers& numbers,
+                                 Flight& flight) const {
+  const CellSampler& sampler = directions_->sampler();
+  const auto offsets = RandomNumbers(numbers.stream(), 0, RandomPurpose::kPyramidOffset);
+  const uint32_t probes =
+      std::min<uint32_t>(visit.ray_count / 2,
+                         static_cast<uint32_t>(options_.pyramids.probes * sampler.cells().size()));
+  Stage first{0, probes, {}}, second{probes, visit.ray_count - probes, {}};
+  for (int c = 0; c < 3; ++c) {
+    const Deal deal(visit.quanta[c], visit.ray_count);
+    first.quanta[c] = deal.quotient * probes + std::min<int64_t>(deal.remainder, probes);
+    second.quanta[c] = visit.quanta[c] - first.quanta[c];
+  }
+  // Uniform densities are those of f_p: all cells that are worth nothing.
+  const Directions by_flux = directions_->FromWorth(std::vector<double>(sampler.cells().size()));
+  const std::vector<uint32_t> probing = CellRays(by_flux.densities, probes, offsets[0]);
+  const std::vector<double> worth =
+      ProbeWorth(sampler, *scene_, emitters_.Frame(visit.emitter), numbers, probing,
+                 {options_.pyramids.rule, &directions_->hit_worth()}, nullptr);
+  ShootStage(visit, first, by_flux, probing, numbers, flight);
+  const Directions seen = directions_->FromWorth(worth);
+  ShootStage(visit, second, seen, CellRays(seen.densities, second.count, offsets[1]), numbers,
+             flight);
+}
+
+void EmbreeShooter::ShootStage(const Visit& visit, const Stage& stage, const Directions& directions,
+                               const std::vector<uint32_t>& rays_of_cell, const RayNumbers& numbers,
+                               Flight& flight) const {
+  const CellSampler& sampler = directions_->sampler();
+  const EmitterFrame frame = emitters_.Frame(visit.emitter);
+  double sum = 0;
+  for (float density : directions.densities) sum += density;
+  uint32_t cell_begin = stage.first;  // first ray of the cell, within the visit
+  // Slots of the batch that are filled with flux and cells but not yet with rays.
+  uint32_t pending_from = std::max(stage.first, visit.ray_begin), pending = 0;
+  int first_slot = flight.batch().size;
+  const auto append = [&] {
+    sampler.Append(frame, directions, flight.cell(), numbers, pending_from, pending_from + pending,
+                   flight.batch(), flight.weight());
+    if (sampler.weighted()) flight.ApplyWeights(first_slot, first_slot + static_cast<int>(pending));
+    pending_from += pending;
+    pending = 0;
+  };
+  for (size_t p = 0; p < rays_of_cell.size(); ++p) {
+    const uint32_t cell_end = cell_begin + rays_of_cell[p];
+    const uint32_t from = std::max(cell_begin, visit.ray_begin);
+    const uint32_t until = std::min(cell_end, visit.ray_end);
+    if (from < until) {
+      // A cell that expects less than one ray gets one with that probability, which then carries
+      // the flux of all the times it gets none:  phi_ray = Phi_i f_p / r_ip.
+      const double expected = directions.densities[p] / sum * stage.count;
+      const double share = expected < 1 ? expected : rays_of_cell[p];
+      const int64_t rays = std::max<int64_t>(1, std::llround(share));
+      const double fraction = sampler.Fraction(directions, static_cast<int>(p));
+      const auto deal = [&](int c) {
+        return Deal(std::llround(static_cast<double>(stage.quanta[c]) * fraction *
+                                 static_cast<double>(rays) / share),
+                    rays);
+      };
+      const Deal deals[3] = {deal(0), deal(1), deal(2)};
+      for (uint32_t ray = from; ray < until; ++ray) {
+        if (flight.batch().size + static_cast<int>(pending) == RayBatch::kCapacity) {
+          append();
+          flight.Land();
+        }
+        if (pending == 0) first_slot = flight.batch().size;
+        const int slot = first_slot + static_cast<int>(pending);
+        flight.cell()[pending++] = static_cast<int32_t>(p);
+        for (int c = 0; c < 3; ++c) flight.SetFlux(slot, c, deals[c].Of(ray - cell_begin));
       }
     }
-    ray = until;
+    cell_begin = cell_end;
   }
+  if (pending > 0) append();
 }
 
 }  // namespace
@@ -265,8 +256,9 @@ absl::StatusOr<std::shared_ptr<const Shooter>> Shooter::Create(
   if (absl::Status status = options.Validate(); !status.ok()) return status;
   absl::StatusOr<std::unique_ptr<RayScene>> scene = RayScene::Create(*patches);
   if (!scene.ok()) return scene.status();
-  return std::shared_ptr<const Shooter>(
-      std::make_shared<EmbreeShooter>(std::move(patches), options, *std::move(scene)));
+  auto shooter = std::make_shared<EmbreeShooter>(std::move(patches), options, *std::move(scene));
+  if (absl::Status status = shooter->Prepare(); !status.ok()) return status;
+  return std::shared_ptr<const Shooter>(std::move(shooter));
 }
 
 }  // namespace lambert

@@ -24,15 +24,17 @@ double Quantum(double total_lm) {
 
 }  // namespace
 
-StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray_lm,
-                      double offset) {
+StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray_lm, double offset,
+                      const std::vector<double>& weights) {
   std::vector<Share> shares;
   Rgb total;
   double cumulative = offset, whole = 0;
   for (const auto& [emitter, flux] : unsent) {
     const double scalar = flux.r + flux.g + flux.b;
     if (!(scalar > 0)) continue;
-    const double expected = std::min(scalar / flux_per_ray_lm, kMaxVisitRays);
+    const bool weighted = static_cast<size_t>(emitter) < weights.size();
+    const double weight = weighted ? weights[emitter] : 1;
+    const double expected = std::min(weight * scalar / flux_per_ray_lm, kMaxVisitRays);
     cumulative += expected;
     const double until = std::floor(cumulative);
     const double rays = std::min(until - whole, kMaxVisitRays);

@@ -24,12 +24,14 @@ struct StepPlan {
   int64_t rays = 0;
 };
 
-// Emitter i expects e_i = flux_i / flux_per_ray rays (flux: the sum of its channels); the numbers
-// are rounded systematically over the emitters from `offset` in [0, 1), so that E[rays_i] = e_i. An
-// emitter that expects less than one ray sends its flux / e_i when it gets one: Russian roulette,
-// no flux is lost in expectation. All flux that is shot is at most 2^kMaxQuantaBits quanta.
-// Requires: finite flux >= 0, flux_per_ray > 0.
-StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray_lm, double offset);
+// Emitter i expects e_i = weight_i flux_i / flux_per_ray rays (flux: the sum of its channels;
+// weight: by emitter, 1 where the list ends before it); the numbers are rounded systematically over
+// the emitters from `offset` in [0, 1), so that E[rays_i] = e_i. An emitter that expects less than
+// one ray sends its flux / e_i when it gets one: Russian roulette, no flux is lost in expectation.
+// All flux that is shot is at most 2^kMaxQuantaBits quanta. Requires: finite flux >= 0,
+// flux_per_ray > 0, weights > 0.
+StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray_lm, double offset,
+                      const std::vector<double>& weights = {});
 
 // Cuts the visits into units of about `unit_rays` rays; long visits are divided. The results of the
 // units, merged, do not depend on how they were cut. Requires: unit_rays >= 1.

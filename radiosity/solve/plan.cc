@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "radiosity/shoot/density_table.h"
+#include "radiosity/shoot/directions.h"
 
 namespace lambert {
 namespace {
@@ -40,13 +40,12 @@ int64_t CountBlack(const PatchSet& patches) {
 int64_t WorkerBytes(const PatchSet& patches, const ShootOptions& shoot) {
   // Patch set 200, tracer 60 + 119 at the peak of its build, frames 36, one unit's deposits 32.
   int64_t bytes = patches.size() * (200 + 179 + 36 + 32);
-  if (shoot.method == Method::kPhs) bytes += patches.size() * 110;  // clusters
+  if (UsesPyramids(shoot.method)) bytes += patches.size() * 200;  // clusters or targets
   return bytes;
 }
 
-PlanItem PyramidItem(const PatchSet& patches, const ShootOptions& shoot, double unevenness,
-                     bool chosen) {
-  PlanItem item{"pyramids", shoot.method != Method::kPhs, "", ""};
+PlanItem PyramidItem(const ShootOptions& shoot, double unevenness, bool chosen) {
+  PlanItem item{"pyramids", !UsesPyramids(shoot.method), "", ""};
   if (!chosen) {
     item.reason = std::string("the method is ") + MethodName(shoot.method) + ", as asked";
   } else if (item.left_out) {
@@ -59,8 +58,8 @@ PlanItem PyramidItem(const PatchSet& patches, const ShootOptions& shoot, double 
   return item;
 }
 
-PlanItem DensityItem(const PatchSet& patches, const PyramidOptions& pyramids) {
-  const int64_t least = MinRaysForDensities(patches, pyramids);
+PlanItem DensityItem(const PatchSet& patches, const ShootOptions& shoot) {
+  const int64_t least = MinRaysForDensities(patches, shoot);
   return {"densities of dim patches", true,
           "a patch that shoots under " + std::to_string(least) +
               " rays in a visit shoots them by the cosine law",
@@ -84,12 +83,15 @@ Plan MakePlan(const PatchSet& patches, const SolveOptions& options) {
   plan.first_pass_rays =
       std::clamp<int64_t>(2 * plan.patches, kMinFirstPassRays, kMaxFirstPassRays);
   if (solve.max_rays > 0) {
+    const int64_t share = solve.max_rays / kPassesInBudget;
+    // mcr shares its budget out evenly.
+    const bool even = solve.shoot.method == Method::kMcr;
     plan.first_pass_rays =
-        std::max<int64_t>(1, std::min(plan.first_pass_rays, solve.max_rays / kPassesInBudget));
+        std::max<int64_t>(1, even ? share : std::min(plan.first_pass_rays, share));
   }
-  plan.items.push_back(PyramidItem(patches, solve.shoot, unevenness, chosen));
-  if (solve.shoot.method == Method::kPhs) {
-    plan.items.push_back(DensityItem(patches, solve.shoot.pyramids));
+  plan.items.push_back(PyramidItem(solve.shoot, unevenness, chosen));
+  if (UsesPyramids(solve.shoot.method)) {
+    plan.items.push_back(DensityItem(patches, solve.shoot));
   }
   if (const int64_t black = CountBlack(patches); black > 0) {
     plan.items.push_back(

@@ -6,6 +6,7 @@
 #include "radiosity/core/bytes.h"
 #include "radiosity/core/error.h"
 #include "radiosity/core/philox.h"
+#include "radiosity/shoot/importance.h"
 #include "radiosity/solve/allocate.h"
 #include "radiosity/solve/flux_ledger.h"
 #include "radiosity/solve/plan.h"
@@ -100,6 +101,8 @@ struct Solver::State {
                                const FluxLedger& ledger);
   void KeepPass(const FluxLedger& ledger, int64_t pass_rays, int64_t first_step_rays);
   bool TimeIsOut() const { return options.max_time_s > 0 && Seconds() >= options.max_time_s; }
+  // Fills `weights` once.
+  absl::Status Weigh();
   void EstimateError();
   void DecideNext();
 
@@ -112,7 +115,18 @@ struct Solver::State {
   double estimated_rms_area = -1, estimated_rms_patch = -1;  // of the replicates
   int32_t step = 0;
   int64_t steps_without_loss = 0;
+  bool weighed = false;
+  std::vector<double> weights;  // of the emitters, for AllocateRays
 };
+
+absl::Status Solver::State::Weigh() {
+  if (weighed) return absl::OkStatus();
+  absl::StatusOr<std::vector<double>> made = AllocationWeights(*patches, options.shoot);
+  if (!made.ok()) return made.status();
+  weights = *std::move(made);
+  weighed = true;
+  return absl::OkStatus();
+}
 
 Progress Solver::State::CurrentProgress() const {
   Progress progress;
@@ -147,7 +161,7 @@ absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_
   const RandomStream stream{options.seed, 0, static_cast<uint32_t>(step),
                             static_cast<uint32_t>(at.next_pass)};
   const double offset = RandomNumbers(stream, 0, RandomPurpose::kPatchOffset)[0];
-  const StepPlan plan = AllocateRays(ledger.unsent(), flux_per_ray, offset);
+  const StepPlan plan = AllocateRays(ledger.unsent(), flux_per_ray, offset, weights);
   UnitResult result;
   if (plan.rays > 0) {
     absl::StatusOr<UnitResult> ran = executor.RunStep(
@@ -168,6 +182,7 @@ absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_
 
 absl::Status Solver::State::RunOnePass(StepExecutor& executor,
                                        const std::function<void(const Progress&)>& on_step) {
+  if (absl::Status status = Weigh(); !status.ok()) return status;
   FluxLedger ledger(*patches);
   const double first_rays =
       std::max(1.0, static_cast<double>(at.pass_rays) / at.rays_per_first_ray);
@@ -231,7 +246,8 @@ void Solver::State::DecideNext() {
     return;
   }
   double next = static_cast<double>(at.pass_rays);
-  if (at.next_pass >= kFirstPasses) next *= kPassGrowth;
+  // mcr repeats itself; the others grow.
+  if (at.next_pass >= kFirstPasses && options.shoot.method != Method::kMcr) next *= kPassGrowth;
   if (options.max_error > 0 && believable) {
     // Error falls like one over the root of the rays: do not shoot far past what is wanted.
     const double ratio = estimated / options.max_error;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "radiosity/core/error.h"
+#include "radiosity/shoot/settings.h"
 
 namespace lambert::server {
 namespace {
@@ -19,22 +20,6 @@ PatchOptions DecodePatch(const v1::PatchSpec& spec, int64_t max_patches) {
   return options;
 }
 
-PyramidOptions DecodePyramids(const v1::PyramidSpec& spec) {
-  PyramidOptions options;
-  if (spec.has_initial_count()) options.initial = spec.initial_count();
-  if (spec.has_split_count()) options.split = spec.split_count();
-  if (spec.has_depth()) options.depth = spec.depth();
-  if (spec.has_alpha1()) options.alpha1 = spec.alpha1();
-  if (spec.has_alpha2()) options.alpha2 = spec.alpha2();
-  if (spec.sampling() == v1::PyramidSpec::SAMPLING_SOLID_ANGLE) {
-    options.sampling = PyramidSampling::kSolidAngle;
-  }
-  options.count_black = spec.count_black();
-  if (spec.has_use_clusters()) options.use_clusters = spec.use_clusters();
-  options.min_rays = spec.min_ray_count();
-  return options;
-}
-
 }  // namespace
 
 absl::StatusOr<JobOptions> DecodeSpec(const v1::SolveSpec& spec, int64_t max_patches) {
@@ -47,7 +32,11 @@ absl::StatusOr<JobOptions> DecodeSpec(const v1::SolveSpec& spec, int64_t max_pat
     if (!method.ok()) return method.status();
     solve.shoot.method = *method;
   }
-  solve.shoot.pyramids = DecodePyramids(spec.shoot().pyramids());
+  for (const auto& [name, value] : spec.shoot().settings()) {
+    absl::Status applied = ApplySetting(name, value, solve.shoot);
+    if (!applied.ok()) return applied;
+  }
+  solve.shoot.region.assign(spec.shoot().region().begin(), spec.shoot().region().end());
   if (spec.has_seed()) solve.seed = static_cast<uint64_t>(spec.seed());
   solve.max_error = spec.max_error();
   solve.max_rays = spec.max_ray_count();
@@ -65,7 +54,6 @@ v1::Plan EncodePlan(const Plan& plan, const v1::SolveSpec& asked) {
   v1::SolveSpec& spec = *proto.mutable_spec();
   spec = asked;
   spec.mutable_shoot()->set_method(MethodName(plan.options.shoot.method));
-  spec.mutable_shoot()->mutable_pyramids()->set_min_ray_count(plan.options.shoot.pyramids.min_rays);
   spec.set_seed(static_cast<int64_t>(plan.options.seed));
   spec.set_max_error(plan.options.max_error);
   spec.set_max_ray_count(plan.options.max_rays);

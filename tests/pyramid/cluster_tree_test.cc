@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "radiosity/pyramid/hemisphere.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 

@@ -9,24 +9,30 @@
 namespace lambert {
 namespace {
 
+std::vector<double> Fractions(const HemisphereCells& cells) {
+  std::vector<double> fractions;
+  for (int p = 0; p < cells.size(); ++p) fractions.push_back(cells.flux_fraction(p));
+  return fractions;
+}
+
 double Sum(const std::vector<float>& densities) {
   return std::accumulate(densities.begin(), densities.end(), 0.0);
 }
 
-std::vector<int32_t> RandomCounts(int size, TestRandom& random) {
-  std::vector<int32_t> counts(size);
-  for (int32_t& n : counts) n = static_cast<int32_t>(std::max<int64_t>(0, random.Below(40) - 20));
+std::vector<double> RandomCounts(int size, TestRandom& random) {
+  std::vector<double> counts(size);
+  for (double& n : counts) n = static_cast<double>(std::max<int64_t>(0, random.Below(40) - 20));
   return counts;
 }
 
-TEST(PyramidDensities, ArePositiveAndSumToOne) {
+TEST(CellDensities, ArePositiveAndSumToOne) {
   TestRandom random(1);
   for (int depth = 0; depth <= 3; ++depth) {
     const Hemisphere hemisphere(4, 4, depth);
     for (const auto& [alpha1, alpha2] :
          {std::pair{1.0, 1.0}, std::pair{0.0, 1.0}, std::pair{1.0, 0.0}, std::pair{0.2, 5.0}}) {
-      const std::vector<float> densities =
-          PyramidDensities(hemisphere, RandomCounts(hemisphere.size(), random), alpha1, alpha2);
+      const std::vector<float> densities = CellDensities(
+          Fractions(hemisphere), RandomCounts(hemisphere.size(), random), alpha1, alpha2);
       ASSERT_EQ(densities.size(), static_cast<size_t>(hemisphere.size()));
       for (float density : densities) EXPECT_GT(density, 0);
       // Each is rounded to float by at most 2^-24 of itself.
@@ -35,40 +41,65 @@ TEST(PyramidDensities, ArePositiveAndSumToOne) {
   }
 }
 
-TEST(PyramidDensities, AreThePapersFormula) {
+TEST(CellDensities, AreThePapersFormula) {
   const Hemisphere hemisphere(4, 4, 0);  // f_p = 1/4 each
-  const std::vector<float> densities = PyramidDensities(hemisphere, {6, 3, 1, 0}, 1, 3);
+  const std::vector<float> densities = CellDensities(Fractions(hemisphere), {6, 3, 1, 0}, 1, 3);
   const double g[4] = {0.6, 0.3, 0.1, 0};
   for (int p = 0; p < 4; ++p) EXPECT_NEAR(densities[p], (1 * 0.25 + 3 * g[p]) / 4, 1e-7) << p;
 }
 
-TEST(PyramidDensities, WithNothingCountedAreTheFluxFractions) {
+TEST(CellDensities, WithNothingCountedAreTheFluxFractions) {
   const Hemisphere hemisphere(5, 3, 2);
   const std::vector<float> densities =
-      PyramidDensities(hemisphere, std::vector<int32_t>(hemisphere.size(), 0), 0.3, 0.9);
+      CellDensities(Fractions(hemisphere), std::vector<double>(hemisphere.size(), 0), 0.3, 0.9);
   for (int p = 0; p < hemisphere.size(); ++p) {
     EXPECT_NEAR(densities[p] / hemisphere.pyramid(p).flux_fraction(), 1, 1e-6);
   }
 }
 
-TEST(PyramidDensities, KeepAHundredthOfTheFluxFractionWhereNothingIsCounted) {
+TEST(CellDensities, KeepAHundredthOfTheFluxFractionWhereNothingIsCounted) {
   const Hemisphere hemisphere(4, 4, 0);
-  const std::vector<float> densities = PyramidDensities(hemisphere, {1, 0, 0, 0}, 0, 1);
+  const std::vector<float> densities = CellDensities(Fractions(hemisphere), {1, 0, 0, 0}, 0, 1);
   const double share = 0.01 * 0.25, sum = 1 + 3 * share;
   EXPECT_NEAR(densities[0], 1 / sum, 1e-7);
   for (int p = 1; p < 4; ++p) EXPECT_NEAR(densities[p] / (share / sum), 1, 1e-6);
 }
 
-TEST(PyramidRays, SumToExactlyTheRaysAndDifferFromTheirExpectationByLessThanOne) {
+TEST(LeastVariance, DividesBySquareRoots) {
+  const std::vector<double> worth = LeastVariance({0.25, 0.25, 0.5}, {0, 0.25, 2});
+  EXPECT_EQ(worth, (std::vector<double>{0, 0.25, 1}));
+}
+
+TEST(SplitWhereWorthIs, SplitsTheWorthiestUntilThereAreEnough) {
+  const Hemisphere hemisphere(4, 4, 2);
+  std::vector<double> worth(64);
+  worth[17] = 5;  // in initial triangle 1, child 0
+  const AdaptivePyramids four = SplitWhereWorthIs(hemisphere, worth, 4);
+  EXPECT_EQ(four.pyramids.size(), 4u);
+  const AdaptivePyramids ten = SplitWhereWorthIs(hemisphere, worth, 12);
+  ASSERT_EQ(ten.pyramids.size(), 10u);  // 3 whole, 3 quarters, 4 sixteenths: 13 would be too many
+  double fractions = 0;
+  for (size_t k = 0; k < ten.pyramids.size(); ++k) {
+    fractions += ten.pyramids[k]->flux_fraction();
+    if (ten.worth[k] > 0) {
+      EXPECT_EQ(ten.pyramids[k], &hemisphere.pyramid(17));
+    }
+  }
+  EXPECT_NEAR(fractions, 1, 1e-12);
+  EXPECT_NEAR(std::accumulate(ten.worth.begin(), ten.worth.end(), 0.0), 5, 0);
+  EXPECT_EQ(SplitWhereWorthIs(hemisphere, worth, 1000).pyramids.size(), 64u);
+}
+
+TEST(CellRays, SumToExactlyTheRaysAndDifferFromTheirExpectationByLessThanOne) {
   TestRandom random(2);
   const Hemisphere hemisphere(4, 4, 2);
   for (int k = 0; k < 2000; ++k) {
     const std::vector<float> densities =
-        PyramidDensities(hemisphere, RandomCounts(hemisphere.size(), random), 1, 1);
+        CellDensities(Fractions(hemisphere), RandomCounts(hemisphere.size(), random), 1, 1);
     const uint32_t wanted =
         k % 5 == 0 ? ~0u - static_cast<uint32_t>(k) : static_cast<uint32_t>(random.Below(300));
     const double offset = k % 7 == 0 ? 1 - 0x1p-24 : random.Uniform();
-    const std::vector<uint32_t> rays = PyramidRays(densities, wanted, offset);
+    const std::vector<uint32_t> rays = CellRays(densities, wanted, offset);
     const double sum = Sum(densities);
     uint64_t total = 0;
     for (size_t p = 0; p < rays.size(); ++p) {
@@ -81,16 +112,16 @@ TEST(PyramidRays, SumToExactlyTheRaysAndDifferFromTheirExpectationByLessThanOne)
 
 // A count is floor(x + offset) - floor(y + offset). Over a grid of offsets each floor has the mean
 // of its argument up to half a grid step, and the two errors stay under one step together.
-TEST(PyramidRays, HaveTheMeanOfTheirDensities) {
+TEST(CellRays, HaveTheMeanOfTheirDensities) {
   constexpr int kGrid = 4096;
   TestRandom random(3);
   const Hemisphere hemisphere(4, 4, 1);
   for (uint32_t wanted : {1u, 3u, 40u, 1000u}) {
     const std::vector<float> densities =
-        PyramidDensities(hemisphere, RandomCounts(hemisphere.size(), random), 1, 2);
+        CellDensities(Fractions(hemisphere), RandomCounts(hemisphere.size(), random), 1, 2);
     std::vector<double> mean(densities.size());
     for (int k = 0; k < kGrid; ++k) {
-      const std::vector<uint32_t> rays = PyramidRays(densities, wanted, (k + 0.5) / kGrid);
+      const std::vector<uint32_t> rays = CellRays(densities, wanted, (k + 0.5) / kGrid);
       for (size_t p = 0; p < rays.size(); ++p) mean[p] += 1.0 * rays[p] / kGrid;
     }
     for (size_t p = 0; p < mean.size(); ++p) {
@@ -100,8 +131,8 @@ TEST(PyramidRays, HaveTheMeanOfTheirDensities) {
   }
 }
 
-TEST(PyramidRays, OfNoRaysAreNone) {
-  EXPECT_EQ(PyramidRays({0.5f, 0.5f}, 0, 0.999), (std::vector<uint32_t>{0, 0}));
+TEST(CellRays, OfNoRaysAreNone) {
+  EXPECT_EQ(CellRays({0.5f, 0.5f}, 0, 0.999), (std::vector<uint32_t>{0, 0}));
 }
 
 }  // namespace

@@ -102,6 +102,27 @@ TEST(SphericalTriangle, SamplesAreUnitVectorsInside) {
   }
 }
 
+TEST(SampleSolidAngle8, EqualsTheScalarSamplesBitForBit) {
+  TestRandom random(5);
+  const auto triangles = Triangles();
+  for (int k = 0; k < 2000; ++k) {
+    const SphericalTriangle* of_lane[8];
+    alignas(32) float xi1[8], xi2[8];
+    for (int lane = 0; lane < 8; ++lane) {
+      of_lane[lane] = &triangles[random.Below(triangles.size())].triangle;
+      xi1[lane] = k % 9 == 0 ? 0 : static_cast<float>(random.Below(1 << 24)) * 0x1p-24f;
+      xi2[lane] = k % 7 == 0 ? 0 : static_cast<float>(random.Below(1 << 24)) * 0x1p-24f;
+    }
+    Directions8 out;
+    SampleSolidAngle8(of_lane, xi1, xi2, out);
+    for (int lane = 0; lane < 8; ++lane) {
+      const Vec3 one = of_lane[lane]->SampleSolidAngle(static_cast<double>(xi1[lane]),
+                                                       static_cast<double>(xi2[lane]));
+      ASSERT_EQ((Vec3{out.x[lane], out.y[lane], out.z[lane]}), one) << k << " " << lane;
+    }
+  }
+}
+
 TEST(SphericalTriangle, SamplesAreUniformInSolidAngle) {
   TestRandom random(2);
   for (const auto& [name, t] : Triangles()) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "radiosity/pyramid/concentric_grid.h"
 #include "radiosity/pyramid/hemisphere.h"
 #include "tests/support/scenes.h"
 #include "tests/support/sphere_bins.h"
@@ -38,6 +39,11 @@ class EmitterTest : public testing::Test {
 };
 
 Vec3 ToVec(const float v[3]) { return {v[0], v[1], v[2]}; }
+
+// A batch of rays through one pyramid.
+std::vector<const SphericalTriangle*> All(const SphericalTriangle& pyramid) {
+  return std::vector<const SphericalTriangle*>(RayBatch::kCapacity, &pyramid);
+}
 
 // What a ray says in the frame of its emitter.
 struct LocalRay {
@@ -149,7 +155,8 @@ TEST_F(EmitterTest, RaysStartAboveTheirPatchAndInsideIt) {
     ForRays(
         2000,
         [&](uint32_t begin, uint32_t end, RayBatch& batch) {
-          AppendCosineRays(frame, {3, static_cast<uint32_t>(i), 0, 0}, begin, end, batch);
+          AppendCosineRays(frame, RandomStream{3, static_cast<uint32_t>(i), 0, 0}, begin, end,
+                           batch);
         },
         [&](const RayBatch& batch, int slot) {
           const Vec3 o{batch.origin_x[slot], batch.origin_y[slot], batch.origin_z[slot]};
@@ -168,7 +175,7 @@ TEST_F(EmitterTest, SphereRaysAreUniformOverTheSphere) {
   ForRays(
       100000,
       [&](uint32_t begin, uint32_t end, RayBatch& batch) {
-        AppendSphereRays(emitters_->Position(light), {4, 99, 1, 2}, begin, end, batch);
+        AppendSphereRays(emitters_->Position(light), RandomStream{4, 99, 1, 2}, begin, end, batch);
       },
       [&](const RayBatch& batch, int slot) {
         const Vec3 d{batch.direction_x[slot], batch.direction_y[slot], batch.direction_z[slot]};
@@ -196,8 +203,8 @@ TEST_F(EmitterTest, SolidAngleRaysAreUniformInTheirPyramidAndKnowTheirCosine) {
     ForRays(
         20000,
         [&](uint32_t begin, uint32_t end, RayBatch& batch) {
-          AppendSolidAngleRays(frame, hemisphere.pyramid(p), {7, 1, 0, 0}, begin, end, batch,
-                               cosine);
+          AppendSolidAngleRays(frame, All(hemisphere.pyramid(p)).data(), RandomStream{7, 1, 0, 0},
+                               begin, end, batch, cosine);
         },
         [&](const RayBatch& batch, int slot) {
           const LocalRay ray = Ray(frame, batch, slot);
@@ -219,7 +226,8 @@ TEST_F(EmitterTest, ProjectedAngleRaysFollowTheCosineLawInTheirPyramid) {
       ForRays(
           20000,
           [&](uint32_t begin, uint32_t end, RayBatch& batch) {
-            AppendProjectedAngleRays(frame, pyramid, {8, 1, 0, 0}, begin, end, batch);
+            AppendProjectedAngleRays(frame, All(pyramid).data(), RandomStream{8, 1, 0, 0}, begin,
+                                     end, batch);
           },
           [&](const RayBatch& batch, int slot) {
             const LocalRay ray = Ray(frame, batch, slot);
@@ -229,6 +237,29 @@ TEST_F(EmitterTest, ProjectedAngleRaysFollowTheCosineLawInTheirPyramid) {
       EXPECT_LT(ChiSquared(counts, bins.FluxShares()), ChiSquaredQuantile(bins.size() - 1))
           << "pyramid " << p << " of " << hemisphere.size();
     }
+  }
+}
+
+TEST_F(EmitterTest, GridRaysFollowTheCosineLawInTheirSquare) {
+  const EmitterFrame frame = emitters_->Frame(1);
+  constexpr int kSide = 5;
+  const ConcentricGrid grid(kSide), finer(2 * kSide);
+  for (int32_t cell = 0; cell < grid.size(); ++cell) {
+    std::vector<int64_t> counts(4);
+    const std::vector<int32_t> cells(RayBatch::kCapacity, cell);
+    ForRays(
+        20000,
+        [&](uint32_t begin, uint32_t end, RayBatch& batch) {
+          AppendGridRays(frame, kSide, cells.data(), RandomStream{9, 1, 0, 0}, begin, end, batch);
+        },
+        [&](const RayBatch& batch, int slot) {
+          const int at = finer.Locate(Ray(frame, batch, slot).direction);
+          // Rounding may put a ray at a border into the next square.
+          const int x = std::clamp(at % finer.side() - 2 * (cell % kSide), 0, 1);
+          const int y = std::clamp(at / finer.side() - 2 * (cell / kSide), 0, 1);
+          ++counts[y * 2 + x];
+        });
+    EXPECT_LT(ChiSquared(counts, std::vector<double>(4, 0.25)), ChiSquaredQuantile(3)) << cell;
   }
 }
 
@@ -251,12 +282,17 @@ TEST_F(EmitterTest, RaysDoNotDependOnHowTheirRangeIsCut) {
   const auto append = [&](int kind, uint32_t begin, uint32_t end, RayBatch& batch) {
     if (kind == 0) AppendCosineRays(frame, stream, begin, end, batch);
     if (kind == 1) AppendSphereRays(frame.corner, stream, begin, end, batch);
-    if (kind == 2) AppendSolidAngleRays(frame, pyramid, stream, begin, end, batch, cosine);
-    if (kind == 3) AppendProjectedAngleRays(frame, pyramid, stream, begin, end, batch);
+    const auto one = All(pyramid);
+    if (kind == 2) AppendSolidAngleRays(frame, one.data(), stream, begin, end, batch, cosine);
+    if (kind == 3) AppendProjectedAngleRays(frame, one.data(), stream, begin, end, batch);
+    const std::vector<int32_t> cells(end - begin, 5);
+    if (kind == 4) AppendGridRays(frame, 8, cells.data(), stream, begin, end, batch);
+    const RayNumbers sobol(stream, Sequence::kSobol);
+    if (kind == 5) AppendCosineRays(frame, sobol, begin, end, batch);
   };
   TestRandom random(6);
   auto whole = std::make_unique<RayBatch>(), parts = std::make_unique<RayBatch>();
-  for (int kind = 0; kind < 4; ++kind) {
+  for (int kind = 0; kind < 6; ++kind) {
     whole->size = parts->size = 0;
     append(kind, 0, 1000, *whole);
     for (uint32_t begin = 0; begin < 1000;) {

@@ -49,6 +49,32 @@ TEST(ShootOptions, ValidationNamesTheFieldThatIsOutOfRange) {
   EXPECT_EQ(RefusedAfter([](PyramidOptions& p) { p.alpha1 = p.alpha2 = 0; }),
             "phs-alpha1, phs-alpha2");
   EXPECT_EQ(RefusedAfter([](PyramidOptions& p) { p.min_rays = -1; }), "phs-min-rays");
+  for (int grid : {0, 65}) {
+    EXPECT_EQ(RefusedAfter([&](PyramidOptions& p) { p.grid = grid; }), "phs-grid");
+  }
+  EXPECT_EQ(RefusedAfter([](PyramidOptions& p) { p.leaves = 3; }), "phs-leaves");
+  for (double metric : {-0.1, 1.1, kNan}) {
+    EXPECT_EQ(RefusedAfter([&](PyramidOptions& p) { p.metric = metric; }), "phs-metric");
+  }
+  EXPECT_EQ(RefusedAfter([](PyramidOptions& p) { p.probes = 0; }), "phs-probes");
+}
+
+TEST(ShootOptions, ValidationNamesWhatDoesNotGoTogether) {
+  ShootOptions adaptive;
+  adaptive.method = Method::kPhsAdaptive;
+  EXPECT_EQ(Refused(adaptive), "");
+  adaptive.pyramids.cells = CellShape::kSquare;
+  EXPECT_EQ(Refused(adaptive), "phs-cells");
+  ShootOptions squares;
+  squares.pyramids.cells = CellShape::kSquare;
+  EXPECT_EQ(Refused(squares), "");
+  squares.pyramids.sampling = PyramidSampling::kSolidAngle;
+  EXPECT_EQ(Refused(squares), "phs-sampling");
+  ShootOptions importance;
+  importance.method = Method::kImportance;
+  EXPECT_EQ(Refused(importance), "region");
+  importance.region = {"table"};
+  EXPECT_EQ(Refused(importance), "");
 }
 
 TEST(ShootOptions, ValidationTakesTheEndsOfEveryRange) {
@@ -64,47 +90,79 @@ TEST(ShootOptions, ValidationTakesTheEndsOfEveryRange) {
 }
 
 TEST(ParseMethod, TurnsEveryNameBackIntoItsMethod) {
-  for (Method method : {Method::kAuto, Method::kPmcr, Method::kPhs}) {
+  EXPECT_EQ(*ParseMethod(MethodName(Method::kAuto)), Method::kAuto);
+  for (Method method : AllMethods()) {
     EXPECT_EQ(*ParseMethod(MethodName(method)), method);
+    EXPECT_NE(method, Method::kAuto);
   }
 }
 
+TEST(UsesPyramids, IsTrueWhereRaysAreDivided) {
+  EXPECT_FALSE(UsesPyramids(Method::kMcr));
+  EXPECT_FALSE(UsesPyramids(Method::kPmcr));
+  EXPECT_TRUE(UsesPyramids(Method::kHs97));
+  EXPECT_TRUE(UsesPyramids(Method::kPhsAdaptive));
+}
+
+TEST(CellCount, IsTheProductOfTheSplitsOrTheSquareOfTheGrid) {
+  PyramidOptions options;
+  EXPECT_EQ(options.CellCount(), 64);
+  options.split = 3;
+  options.depth = 3;
+  EXPECT_EQ(options.CellCount(), 108);
+  options.cells = CellShape::kSquare;
+  options.grid = 16;
+  EXPECT_EQ(options.CellCount(), 256);
+}
+
 TEST(ParseMethod, OfAnUnknownNameNamesTheChoices) {
-  for (const char* name : {"", "PHS", "hs97"}) {
+  for (const char* name : {"", "PHS", "hs99"}) {
     const absl::StatusOr<Method> method = ParseMethod(name);
     ASSERT_FALSE(method.ok());
     const ErrorDetail detail = *GetErrorDetail(method.status());
     EXPECT_EQ(detail.reason, "FIELD_INVALID");
     EXPECT_EQ(detail.where, "method");
     EXPECT_NE(detail.message.find(name), std::string::npos);
-    EXPECT_NE(detail.hint.find("auto, pmcr, phs"), std::string::npos) << detail.hint;
+    EXPECT_NE(detail.hint.find("auto, mcr, pmcr"), std::string::npos) << detail.hint;
   }
 }
 
 ShootOptions UnusualOptions() {
   ShootOptions options;
-  options.method = Method::kPhs;
-  options.pyramids = {7, 3, 1, 0.25, 0.125, PyramidSampling::kSolidAngle, true, false, 12345};
+  options.method = Method::kImportance;
+  options.region = {"table", "7"};
+  options.sequence = Sequence::kSobol;
+  options.allocation = Allocation::kVariance;
+  PyramidOptions& p = options.pyramids;
+  p.initial = 7;
+  p.split = 3;
+  p.depth = 1;
+  p.grid = 5;
+  p.leaves = 17;
+  p.rule = DensityRule::kVariance;
+  p.metric = 0.3;
+  p.alpha1 = 0.25;
+  p.alpha2 = 0.1;  // not a sum of powers of two
+  p.sampling = PyramidSampling::kSolidAngle;
+  p.count_black = true;
+  p.use_clusters = false;
+  p.count_unseen = true;
+  p.probes = 9;
+  p.min_rays = 12345;
   return options;
 }
 
 TEST(ShootOptionsCodec, GivesEveryFieldBack) {
-  const std::string bytes = EncodeShootOptions(UnusualOptions());
-  const absl::StatusOr<ShootOptions> read = DecodeShootOptions(bytes);
-  ASSERT_TRUE(read.ok()) << read.status();
-  EXPECT_EQ(read->method, Method::kPhs);
-  const PyramidOptions& p = read->pyramids;
-  EXPECT_EQ(p.initial, 7);
-  EXPECT_EQ(p.split, 3);
-  EXPECT_EQ(p.depth, 1);
-  EXPECT_EQ(p.alpha1, 0.25);
-  EXPECT_EQ(p.alpha2, 0.125);
-  EXPECT_EQ(p.sampling, PyramidSampling::kSolidAngle);
-  EXPECT_TRUE(p.count_black);
-  EXPECT_FALSE(p.use_clusters);
-  EXPECT_EQ(p.min_rays, 12345);
-  EXPECT_TRUE(EncodeShootOptions(*read) == bytes);
-  EXPECT_FALSE(EncodeShootOptions({}) == bytes);
+  ShootOptions squares;
+  squares.pyramids.cells = CellShape::kSquare;
+  for (const ShootOptions& options : {ShootOptions{}, UnusualOptions(), squares}) {
+    const std::string bytes = EncodeShootOptions(options);
+    const absl::StatusOr<ShootOptions> read = DecodeShootOptions(bytes);
+    ASSERT_TRUE(read.ok()) << read.status();
+    EXPECT_EQ(*read, options);
+    EXPECT_TRUE(EncodeShootOptions(*read) == bytes);
+  }
+  EXPECT_FALSE(EncodeShootOptions({}) == EncodeShootOptions(squares));
 }
 
 TEST(ShootOptionsCodec, RefusesWhatIsCutLongerOrOutOfRange) {

@@ -36,7 +36,7 @@ void ShootCosineRays(const PatchSet& patches, const RayScene& scene, int64_t ray
     const EmitterFrame frame = emitters.Frame(i);
     for (uint32_t ray = 0; ray < each;) {
       const uint32_t end = std::min<uint32_t>(each, ray + RayBatch::kCapacity - batch->size);
-      AppendCosineRays(frame, {1, static_cast<uint32_t>(i), 0, 0}, ray, end, *batch);
+      AppendCosineRays(frame, RandomStream{1, static_cast<uint32_t>(i), 0, 0}, ray, end, *batch);
       emitter.resize(batch->size, i);
       ray = end;
       if (batch->size == RayBatch::kCapacity) land();

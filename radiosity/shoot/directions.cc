@@ -1,0 +1,135 @@
+#include "radiosity/shoot/directions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radiosity/pyramid/density.h"
+#include "radiosity/shoot/probe.h"
+
+namespace lambert {
+namespace {
+
+constexpr int64_t kCacheBytes = int64_t{256} << 20;
+// Angle [rad] under which targets are taken as points: this share of a cell's width.
+constexpr double kOpeningShare = 0.6;
+
+bool LeastVarianceRule(const ShootOptions& options) {
+  return options.pyramids.rule == DensityRule::kVariance || options.method == Method::kImportance;
+}
+
+// Measured (docs/benchmarks.md): counting takes 11 ns a patch of the scene, a node of the tree of
+// targets 25 ns, of which some 16 are met for each cell; a ray takes 250 ns.
+double DensityNs(const PatchSet& patches, const ShootOptions& options) {
+  constexpr double kCountNs = 11, kNodeNs = 25, kNodesPerCell = 16, kRayNs = 250;
+  const double cells = options.pyramids.CellCount();
+  if (options.method == Method::kHs98) return cells * options.pyramids.probes * kRayNs;
+  if (LeastVarianceRule(options)) return cells * kNodesPerCell * kNodeNs;
+  return patches.size() * kCountNs;
+}
+
+}  // namespace
+
+int64_t MinRaysForDensities(const PatchSet& patches, const ShootOptions& options) {
+  const PyramidOptions& pyramids = options.pyramids;
+  if (pyramids.min_rays > 0) return pyramids.min_rays;
+  const int64_t cells = pyramids.CellCount();
+  // Half of the rays probe, the others follow.
+  if (options.method == Method::kHs97) return 2 * cells * pyramids.probes;
+  // Kept densities also serve the passes to come, which shoot about twice as many rays again.
+  constexpr double kRayNs = 250, kShareOfTime = 0.1, kVisitsServed = 3;
+  const double rays = DensityNs(patches, options) / (kRayNs * kShareOfTime * kVisitsServed);
+  return std::max(cells, static_cast<int64_t>(std::llround(rays)));
+}
+
+std::vector<double> ErrorWorth(const PatchSet& patches, double metric) {
+  double area = 0;
+  for (double a : patches.area_m2) area += a;
+  const double mean = area / std::max<PatchIndex>(1, patches.size());
+  std::vector<double> worth(patches.size());
+  for (PatchIndex j = 0; j < patches.size(); ++j) {
+    const double rho = Mean(patches.reflectance[j]);
+    worth[j] = rho * rho * std::pow(patches.area_m2[j] / mean, metric - 2);
+  }
+  return worth;
+}
+
+DirectionTable::DirectionTable(const PatchSet& patches, const RayScene& scene,
+                               const Emitters& emitters, const ShootOptions& options,
+                               std::vector<double> hit_worth)
+    : patches_(patches),
+      scene_(scene),
+      emitters_(emitters),
+      options_(options),
+      hit_worth_(std::move(hit_worth)),
+      min_rays_(MinRaysForDensities(patches, options)),
+      sampler_(options.pyramids),
+      kept_(patches.size()) {
+  const bool probes = options.method == Method::kHs97 || options.method == Method::kHs98;
+  if (probes) return;
+  if (LeastVarianceRule(options)) {
+    targets_ = std::make_unique<TargetTree>(patches, hit_worth_);
+  } else {
+    clusters_ = std::make_unique<ClusterTree>(patches, options.pyramids.count_black);
+  }
+}
+
+DirectionTable::~DirectionTable() {
+  for (auto& slot : kept_) delete slot.load();
+}
+
+std::vector<double> DirectionTable::Worth(PatchIndex patch) const {
+  const HemisphereCells& cells = sampler_.cells();
+  if (targets_ != nullptr) {
+    const double opening =
+        kOpeningShare * std::sqrt(2 * std::numbers::pi / static_cast<double>(cells.size()));
+    return LeastVariance(sampler_.fractions(),
+                         targets_->Moments(PatchFrame(patches_, patch), cells, opening));
+  }
+  if (clusters_ != nullptr) {
+    const std::vector<int32_t> counts =
+        clusters_->CountPatches(PatchFrame(patches_, patch), cells, options_.pyramids.use_clusters);
+    return {counts.begin(), counts.end()};
+  }
+  // hs98: the probing rays are of no seed, so that the densities are those of the scene.
+  const RandomStream stream{0, static_cast<uint32_t>(patch), 0, 0};
+  const std::vector<uint32_t> rays(cells.size(), static_cast<uint32_t>(options_.pyramids.probes));
+  return ProbeWorth(sampler_, scene_, emitters_.Frame(patch), stream, rays,
+                    {options_.pyramids.rule, &hit_worth_}, nullptr);
+}
+
+Directions DirectionTable::FromWorth(const std::vector<double>& worth) const {
+  return {CellDensities(sampler_.fractions(), worth, options_.pyramids.alpha1,
+                        options_.pyramids.alpha2),
+          {}};
+}
+
+Directions DirectionTable::Compute(PatchIndex patch) const {
+  const std::vector<double> worth = Worth(patch);
+  if (options_.method != Method::kPhsAdaptive) return FromWorth(worth);
+  AdaptivePyramids split =
+      SplitWhereWorthIs(sampler_.hemisphere(), worth, options_.pyramids.leaves);
+  std::vector<double> fractions;
+  for (const SphericalTriangle* pyramid : split.pyramids) {
+    fractions.push_back(pyramid->flux_fraction());
+  }
+  return {CellDensities(fractions, split.worth, options_.pyramids.alpha1, options_.pyramids.alpha2),
+          std::move(split.pyramids)};
+}
+
+std::shared_ptr<const Directions> DirectionTable::Get(PatchIndex patch) const {
+  std::atomic<const std::shared_ptr<const Directions>*>& slot = kept_[patch];
+  if (const auto* kept = slot.load(std::memory_order_acquire)) return *kept;
+  auto directions = std::make_shared<const Directions>(Compute(patch));
+  const auto bytes = static_cast<int64_t>(directions->densities.size() * sizeof(float) +
+                                          directions->pyramids.size() * sizeof(void*));
+  if (kept_bytes_.fetch_add(bytes) + bytes <= kCacheBytes) {
+    auto copy = std::make_unique<const std::shared_ptr<const Directions>>(directions);
+    const std::shared_ptr<const Directions>* expected = nullptr;
+    if (slot.compare_exchange_strong(expected, copy.get(), std::memory_order_acq_rel)) {
+      copy.release();
+    }
+  }
+  return directions;
+}
+
+}  // namespace lambert

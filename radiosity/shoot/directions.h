@@ -1,0 +1,65 @@
+// The directions that each patch prefers: computed when first needed, and kept.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "radiosity/patch/patch_set.h"
+#include "radiosity/pyramid/cluster_tree.h"
+#include "radiosity/pyramid/target_tree.h"
+#include "radiosity/shoot/cell_sampler.h"
+#include "radiosity/shoot/emitter.h"
+#include "radiosity/shoot/options.h"
+#include "radiosity/trace/ray_scene.h"
+
+namespace lambert {
+
+// Rays that a patch must shoot in one visit for its densities to be worth computing, where
+// `min_rays` leaves the choice open: computing them then costs about a tenth of tracing.
+int64_t MinRaysForDensities(const PatchSet& patches, const ShootOptions& options);
+
+// What flux that arrives at each patch adds to the variance of the error measure `metric`:
+// rho_j^2 A_j^(metric - 2), times the mean area to the power that makes it a number.
+std::vector<double> ErrorWorth(const PatchSet& patches, double metric);
+
+// Any number of threads at once.
+class DirectionTable {
+ public:
+  // `scene` and `emitters` are of `patches`; all must outlive the table. `hit_worth`: of flux that
+  // arrives at each patch, for the rule of least variance; may be empty for the rule of counts.
+  // Requires: UsesPyramids(options.method).
+  DirectionTable(const PatchSet& patches, const RayScene& scene, const Emitters& emitters,
+                 const ShootOptions& options, std::vector<double> hit_worth);
+  ~DirectionTable();
+  DirectionTable(const DirectionTable&) = delete;
+  DirectionTable& operator=(const DirectionTable&) = delete;
+
+  const CellSampler& sampler() const { return sampler_; }
+  int64_t min_rays() const { return min_rays_; }
+  const std::vector<double>& hit_worth() const { return hit_worth_; }
+  // Of a patch: a function of the patch set and the options alone.
+  std::shared_ptr<const Directions> Get(PatchIndex patch) const;
+  // Densities from what each cell is worth, by the options' weights.
+  Directions FromWorth(const std::vector<double>& worth) const;
+
+ private:
+  Directions Compute(PatchIndex patch) const;
+  std::vector<double> Worth(PatchIndex patch) const;
+
+  const PatchSet& patches_;
+  const RayScene& scene_;
+  const Emitters& emitters_;
+  const ShootOptions options_;
+  const std::vector<double> hit_worth_;
+  const int64_t min_rays_;
+  const CellSampler sampler_;
+  std::unique_ptr<const ClusterTree> clusters_;  // for counts
+  std::unique_ptr<const TargetTree> targets_;    // for least variance
+  // Filled once each; never replaced. Past kCacheBytes densities are computed at every visit.
+  mutable std::vector<std::atomic<const std::shared_ptr<const Directions>*>> kept_;
+  mutable std::atomic<int64_t> kept_bytes_ = 0;
+};
+
+}  // namespace lambert

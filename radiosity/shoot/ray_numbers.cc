@@ -1,0 +1,93 @@
+#include "radiosity/shoot/ray_numbers.h"
+
+namespace lambert {
+namespace {
+
+constexpr int kDimensions = 4;
+constexpr float kTo01 = 1.0f / 16777216.0f;  // 2^-24
+
+// Direction numbers v[dimension][bit].
+struct SobolDirections {
+  uint32_t v[kDimensions][32] = {};
+
+  constexpr SobolDirections() {
+    // Degree, coefficients and first numbers of the primitive polynomials (JK08).
+    constexpr int kDegree[kDimensions] = {0, 1, 2, 3};
+    constexpr uint32_t kCoefficients[kDimensions] = {0, 0, 1, 1};
+    constexpr uint32_t kFirst[kDimensions][3] = {{}, {1}, {1, 3}, {1, 3, 1}};
+    for (int bit = 0; bit < 32; ++bit) v[0][bit] = 1u << (31 - bit);
+    for (int d = 1; d < kDimensions; ++d) {
+      const int s = kDegree[d];
+      for (int bit = 0; bit < s; ++bit) v[d][bit] = kFirst[d][bit] << (31 - bit);
+      for (int bit = s; bit < 32; ++bit) {
+        uint32_t x = v[d][bit - s] ^ (v[d][bit - s] >> s);
+        for (int i = 1; i < s; ++i) {
+          if (kCoefficients[d] >> (s - 1 - i) & 1) x ^= v[d][bit - i];
+        }
+        v[d][bit] = x;
+      }
+    }
+  }
+};
+constexpr SobolDirections kSobol;
+
+// The bits in reverse order.
+inline uint32_t Reverse(uint32_t x) {
+  x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
+  x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
+  x = (x & 0x0F0F0F0Fu) << 4 | (x >> 4 & 0x0F0F0F0Fu);
+  x = (x & 0x00FF00FFu) << 8 | (x >> 8 & 0x00FF00FFu);
+  return x << 16 | x >> 16;
+}
+
+// Each bit of the result depends on that bit and lower ones alone (LK11, constants of Vegdahl).
+inline uint32_t LaineKarras(uint32_t x, uint32_t seed) {
+  x ^= x * 0x3D20ADEAu;
+  x += seed;
+  x *= (seed >> 16) | 1;
+  x ^= x * 0x05526C56u;
+  x ^= x * 0x53A22864u;
+  return x;
+}
+
+}  // namespace
+
+uint32_t SobolBits(uint32_t index, int dimension) {
+  uint32_t bits = 0;
+  for (int bit = 0; index != 0; index >>= 1, ++bit) {
+    bits ^= kSobol.v[dimension][bit] & (0u - (index & 1));
+  }
+  return bits;
+}
+
+uint32_t OwenScramble(uint32_t bits, uint32_t seed) {
+  return Reverse(LaineKarras(Reverse(bits), seed));
+}
+
+RayNumbers::RayNumbers(const RandomStream& stream, Sequence sequence)
+    : stream_(stream), sequence_(sequence) {
+  if (sequence == Sequence::kSobol) scramble_ = RandomBits(stream, 0, RandomPurpose::kScramble);
+}
+
+void RayNumbers::Fill(uint32_t first, RandomNumbers8& out) const {
+  if (sequence_ == Sequence::kRandom) {
+    FillRandomNumbers(stream_, first, out);
+    return;
+  }
+  for (int d = 0; d < kDimensions; ++d) {
+    // The low three bits of a group's rays change and the others do not, but where a group is not
+    // aligned: one loop for both.
+    uint32_t bits[8] = {};
+    for (int bit = 0; bit < 32; ++bit) {
+      for (uint32_t lane = 0; lane < 8; ++lane) {
+        bits[lane] ^= kSobol.v[d][bit] & (0u - ((first + lane) >> bit & 1));
+      }
+    }
+    for (int lane = 0; lane < 8; ++lane) {
+      out.numbers[d][lane] =
+          static_cast<float>(OwenScramble(bits[lane], scramble_[d]) >> 8) * kTo01;
+    }
+  }
+}
+
+}  // namespace lambert

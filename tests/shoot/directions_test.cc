@@ -1,0 +1,138 @@
+#include "radiosity/shoot/directions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <thread>
+
+#include "radiosity/pyramid/density.h"
+#include "tests/support/scenes.h"
+
+namespace lambert {
+namespace {
+
+// A patch set made ready, with the directions of its patches.
+struct Made {
+  Made(const Scene& from, const ShootOptions& options)
+      : patches(PatchesOf(from)),
+        scene(*RayScene::Create(patches)),
+        emitters(patches, *scene),
+        table(patches, *scene, emitters, options, ErrorWorth(patches, options.pyramids.metric)) {}
+
+  PatchSet patches;
+  std::unique_ptr<RayScene> scene;
+  Emitters emitters;
+  DirectionTable table;
+};
+
+ShootOptions With(Method method) {
+  ShootOptions options;
+  options.method = method;
+  return options;
+}
+
+std::vector<float> CountedDirectly(const PatchSet& patches, const PyramidOptions& options,
+                                   PatchIndex i) {
+  const CellSampler sampler(options);
+  const ClusterTree tree(patches, options.count_black);
+  const std::vector<int32_t> counts =
+      tree.CountPatches(PatchFrame(patches, i), sampler.cells(), options.use_clusters);
+  return CellDensities(sampler.fractions(), {counts.begin(), counts.end()}, options.alpha1,
+                       options.alpha2);
+}
+
+TEST(DirectionTable, HoldsTheDensitiesOfEveryPatchAtTheFirstAndTheSecondCall) {
+  for (CellShape shape : {CellShape::kTriangle, CellShape::kSquare}) {
+    ShootOptions options = With(Method::kPhs);
+    options.pyramids.alpha2 = 3;
+    options.pyramids.cells = shape;
+    const Made made(MakeCornell(2), options);
+    EXPECT_EQ(made.table.sampler().cells().size(), 64);
+    for (PatchIndex i = 0; i < made.patches.size(); i += 7) {
+      const std::vector<float> expected = CountedDirectly(made.patches, options.pyramids, i);
+      EXPECT_EQ(made.table.Get(i)->densities, expected);
+      EXPECT_EQ(made.table.Get(i)->densities, expected);
+    }
+  }
+}
+
+TEST(DirectionTable, DoesNotDependOnClusters) {
+  ShootOptions without = With(Method::kPhs);
+  without.pyramids.use_clusters = false;
+  const Made a(MakeOffice(1), With(Method::kPhs)), b(MakeOffice(1), without);
+  for (PatchIndex i = 0; i < a.patches.size(); i += 11) {
+    EXPECT_EQ(a.table.Get(i)->densities, b.table.Get(i)->densities);
+  }
+}
+
+TEST(DirectionTable, GivesManyThreadsAtOnceTheSameDensities) {
+  const Made shared(MakeCornell(2), With(Method::kPhs)), alone(MakeCornell(2), With(Method::kPhs));
+  std::vector<int> wrong(4);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([&, t] {
+      for (PatchIndex i = 0; i < shared.patches.size(); ++i) {
+        wrong[t] += shared.table.Get(i)->densities != alone.table.Get(i)->densities;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, std::vector<int>(4, 0));
+}
+
+// Every method's densities, by what they are made of, are positive and sum to 1.
+TEST(DirectionTable, DividesAllRaysByEveryMethodAndRule) {
+  for (Method method : {Method::kHs97, Method::kHs98, Method::kPhs, Method::kPhsAdaptive}) {
+    for (DensityRule rule : {DensityRule::kCount, DensityRule::kVariance}) {
+      ShootOptions options = With(method);
+      options.pyramids.rule = rule;
+      options.pyramids.leaves = 19;
+      const Made made(MakeOffice(1), options);
+      for (PatchIndex i = 0; i < made.patches.size(); i += 41) {
+        const auto directions = made.table.Get(i);
+        double sum = 0, fractions = 0;
+        for (size_t p = 0; p < directions->densities.size(); ++p) {
+          EXPECT_GT(directions->densities[p], 0);
+          sum += directions->densities[p];
+          fractions += made.table.sampler().Fraction(*directions, static_cast<int>(p));
+        }
+        EXPECT_NEAR(sum, 1, 1e-6);
+        EXPECT_NEAR(fractions, 1, 1e-12);
+        if (method == Method::kPhsAdaptive) {
+          EXPECT_EQ(directions->densities.size(), 19u);
+        }
+      }
+    }
+  }
+}
+
+TEST(ErrorWorth, FallsWithTheAreaAsTheMetricSays) {
+  const PatchSet patches = PatchesOf(MakeOffice(1));
+  const std::vector<double> unweighted = ErrorWorth(patches, 0), weighted = ErrorWorth(patches, 1);
+  for (PatchIndex j = 1; j < patches.size(); j += 17) {
+    const double rho = Mean(patches.reflectance[j]) / Mean(patches.reflectance[0]);
+    const double area = patches.area_m2[j] / patches.area_m2[0];
+    EXPECT_NEAR(unweighted[j] / unweighted[0] / (rho * rho / (area * area)), 1, 1e-12);
+    EXPECT_NEAR(weighted[j] / weighted[0] / (rho * rho / area), 1, 1e-12);
+  }
+}
+
+TEST(MinRaysForDensities, IsWhatIsAskedForOrElseGrowsWithTheSceneAndThePyramids) {
+  const PatchSet small = PatchesOf(MakeCornell(1)), large = PatchesOf(MakeCornell(12));
+  ShootOptions options = With(Method::kPhs);
+  const int64_t pyramids = 64;
+  EXPECT_GE(MinRaysForDensities(small, options), pyramids);
+  EXPECT_GT(MinRaysForDensities(large, options), MinRaysForDensities(small, options));
+  ShootOptions deep = options;
+  deep.pyramids.depth = 4;
+  EXPECT_GE(MinRaysForDensities(small, deep), 1024);
+  ShootOptions probing = With(Method::kHs97);
+  probing.pyramids.probes = 3;
+  EXPECT_EQ(MinRaysForDensities(small, probing), 2 * 3 * pyramids);
+  options.pyramids.min_rays = 5;
+  EXPECT_EQ(MinRaysForDensities(large, options), 5);
+}
+
+}  // namespace
+}  // namespace lambert
