@@ -39,6 +39,14 @@ absl::StatusOr<Method> ParseMethod(const std::string& name) {
   return FieldError("method", "there is no method '" + name + "'", "choose one of " + choices);
 }
 
+std::vector<Method> AllMethods() {
+  std::vector<Method> methods;
+  for (const MethodEntry& entry : kMethods) {
+    if (entry.method != Method::kAuto) methods.push_back(entry.method);
+  }
+  return methods;
+}
+
 absl::Status ShootOptions::Validate() const {
   const PyramidOptions& p = pyramids;
   if (p.initial < 3 || p.initial > 64) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 
@@ -17,6 +18,8 @@ enum class Method : uint8_t {
 // "auto", "pmcr", "phs". Parsing fails with FIELD_INVALID naming the choices.
 const char* MethodName(Method method);
 absl::StatusOr<Method> ParseMethod(const std::string& name);
+// Every method that shoots: all but kAuto, in the order of their numbers.
+std::vector<Method> AllMethods();
 
 // How a ray's direction is drawn inside its pyramid.
 enum class PyramidSampling : uint8_t {
