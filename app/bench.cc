@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <map>
 
+#include "app/bench_figures.h"
+#include "app/bench_pictures.h"
 #include "app/bench_scene.h"
 #include "app/bench_text.h"
 #include "app/commands.h"
@@ -33,6 +35,21 @@ std::vector<std::string> SceneFolders(const Options& options) {
   return folders;
 }
 
+// The files that people look at. Numbers are worth something without pictures.
+std::vector<std::string> Draw(const BenchResult& result, ProgressPrinter& printer) {
+  std::vector<std::string> files = {result.folder + "/summary.csv",
+                                    result.folder + "/convergence.csv"};
+  for (auto& drawn : {DrawFigures(result, result.folder + "/figures"),
+                      DrawPictures(result, result.folder + "/pictures")}) {
+    if (drawn.ok()) {
+      files.insert(files.end(), drawn->begin(), drawn->end());
+    } else {
+      printer.Note("warning: " + std::string(drawn.status().message()));
+    }
+  }
+  return files;
+}
+
 }  // namespace
 
 absl::StatusOr<ExitCode> RunBench(const Options& options, Interrupt& interrupt) {
@@ -47,11 +64,15 @@ absl::StatusOr<ExitCode> RunBench(const Options& options, Interrupt& interrupt) 
         BenchScene(options, options.bench.scenes[k], folders[k], *service, interrupt, printer);
     if (!result.ok()) return result.status();
     interrupted = result->interrupted;
+    const std::vector<std::string> files = Draw(*result, printer);
     Json json = BenchJson(options, *result);
+    json["files"] = files;
     absl::Status written = WriteOutputFile(folders[k] + "/run.json", Dump(json));
     if (!written.ok()) return written;
     results.push_back(std::move(json));
-    if (!options.json) std::printf("%s%s", k == 0 ? "" : "\n", BenchText(*result).c_str());
+    if (options.json) continue;
+    std::printf("%s%s", k == 0 ? "" : "\n", BenchText(*result).c_str());
+    for (const std::string& file : files) std::printf("  %s\n", file.c_str());
   }
   if (options.json) std::fputs(Dump({{"scenes", results}}).c_str(), stdout);
   return interrupted ? ExitCode::kInterrupted : ExitCode::kDone;
