@@ -142,9 +142,11 @@ absl::Status Bench::DropEntry(size_t entry, const absl::Status& why) {
                                    why.code() == absl::StatusCode::kUnimplemented;
   if (dropped.by_name || !is_about_the_method) return why;
   dropped_[entry] = true;
+  std::erase_if(result_.runs, [&](const BenchRun& run) { return run.method == dropped.label; });
   result_.left_out.push_back({dropped.label, Why(why)});
   printer_.Note("left out: " + dropped.label + ": " + Why(why));
-  return absl::OkStatus();
+  const bool is_any_left = std::find(dropped_.begin(), dropped_.end(), false) != dropped_.end();
+  return is_any_left ? absl::OkStatus() : why;
 }
 
 absl::Status Bench::ReadReference() {
