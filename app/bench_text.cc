@@ -4,6 +4,7 @@
 
 #include "app/measures_text.h"
 #include "app/progress_text.h"
+#include "app/service.h"
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
 
@@ -60,11 +61,20 @@ Json ResidualJson(const ErrorMeasures& residual) {
           {"rms_local", OrNull(residual.rms_local)}};
 }
 
+// Where the work was done: times are of there.
+Json PlaceJson(const Options& options) {
+  if (!options.server.empty()) return {{"server", options.server}};
+  return {{"workers", options.workers}, {"threads", ThreadsPerWorker(options)}};
+}
+
 }  // namespace
 
 std::string BenchHeadline(const BenchResult& result) {
+  int seeds = 0;
+  for (const BenchSummary& summary : result.summaries) seeds = std::max(seeds, summary.seeds);
   std::string text =
-      fmt::format("{}: {} patches; reference: {}, residual {}", result.name, result.patches->size(),
+      fmt::format("{}: {} patches, {} {}; reference: {}, residual {}", result.name,
+                  result.patches->size(), seeds, seeds == 1 ? "seed" : "seeds",
                   result.reference_origin, Percent(result.reference.residual.rms_area));
   if (result.reference.residual.rms_patch) {
     text += fmt::format(" (every patch alike: {})", Percent(result.reference.residual.rms_patch));
@@ -117,6 +127,7 @@ Json BenchJson(const Options& options, const BenchResult& result) {
           {"seeds", options.bench.seeds},
           {"max_edge_m", options.patch.max_edge_m},
           {"two_sided", options.patch.two_sided},
+          {"place", PlaceJson(options)},
           {"regions", options.regions},
           {"reference",
            {{"origin", result.reference_origin},

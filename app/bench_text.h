@@ -14,7 +14,8 @@ std::string BenchText(const BenchResult& result);
 // The same as one object, with all digits; also the content of run.json.
 nlohmann::ordered_json BenchJson(const Options& options, const BenchResult& result);
 
-// "scene, 1450 patches; reference: ..., residual 0.12 %": the headline of table and figures.
+// "room: 1450 patches, 4 seeds; reference: ..., residual 0.12 %": the headline of table and
+// figures.
 std::string BenchHeadline(const BenchResult& result);
 
 }  // namespace lambert::app
