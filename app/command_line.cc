@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "CLI/CLI.hpp"
+#include "app/bench_list.h"
 #include "app/exit.h"
+#include "app/option_checks.h"
 #include "app/option_groups.h"
 #include "app/settings.h"
 #include "fmt/format.h"
@@ -25,6 +27,7 @@ constexpr char kExamples[] =
     "  lambert bake room.glb -o out --server host:7400   on a farm\n"
     "  lambert submit room.glb --server host:7400        leave it there; then watch and fetch\n"
     "  lambert compare out/patches.csv reference.csv     how far off is it?\n"
+    "  lambert bench room.glb -o out --methods pmcr,phs  error against rays and time\n"
     "Every option can be set by a variable (LAMBERT_MAX_ERROR=0.01) and in ./lambert.toml\n"
     "(max-error = 0.01); a flag wins over a variable, a variable over the file.\n"
     "Exit: 0 done, 1 failed, 2 usage, 3 bad scene, 4 server not reached, 5 budget spent before "
@@ -46,6 +49,7 @@ class Parser {
     AddBaking();
     AddJobs();
     AddCompare();
+    AddBench();
   }
 
   absl::StatusOr<ParsedLine> Parse(std::vector<std::string> arguments);
@@ -65,6 +69,9 @@ class Parser {
   void AddBaking();
   void AddJobs();
   void AddCompare();
+  void AddBench();
+  // What bake, plan, submit and bench ask of a scene and of how it is solved.
+  void AddSolving(CLI::App& command);
   absl::Status CheckCommandName(const std::vector<std::string>& arguments) const;
   absl::Status CheckExtras() const;
   Layer LayerOf(const std::string& option, const Settings& settings) const;
@@ -82,43 +89,33 @@ class Parser {
 
 std::string CommandName(const CLI::App& parser) { return "lambert " + parser.get_name(); }
 
-// "--flag: what" is CLI11's form of a check that failed, "Could not convert: --flag = text" that of
-// a number that is none.
-absl::Status FromCliError(const CLI::ParseError& error, const std::string& command) {
-  constexpr char kNoNumber[] = "Could not convert: ";
-  const std::string text = error.what();
-  const std::string hint = "see " + command + " --help";
-  if (text.rfind(kNoNumber, 0) == 0) {
-    const std::string rest = text.substr(sizeof(kNoNumber) - 1);
-    const size_t equals = rest.find(" = ");
-    if (equals != std::string::npos) {
-      return UsageError(rest.substr(0, equals), "'" + rest.substr(equals + 3) + "' is no number",
-                        hint);
-    }
-  }
-  const size_t colon = text.find(": ");
-  if (text.rfind("--", 0) == 0 && colon != std::string::npos) {
-    return UsageError(text.substr(0, colon), text.substr(colon + 2), hint);
-  }
-  return UsageError(command, text, hint);
-}
-
 void Parser::AddBaking() {
   CLI::App& bake = Add(Command::kBake, "bake", "solve a scene and write the result");
   CLI::App& plan =
       Add(Command::kPlan, "plan", "say what would be done and left out; solve nothing");
   CLI::App& submit = Add(Command::kSubmit, "submit", "start a job on a server, print its name");
   for (CLI::App* command : {&bake, &plan, &submit}) {
-    AddSceneOptions(*command, draft_);
     if (command == &bake) AddOutputOption(*command, draft_);
-    AddStopOptions(*command, draft_);
-    AddMethodOptions(*command, draft_);
-    AddPlaceOptions(*command, draft_);
-    AddServerOptions(*command, draft_);
-    AddMeasureOptions(*command, draft_);
-    AddProgressOption(*command, draft_);
-    AddJsonOption(*command, draft_);
+    AddSolving(*command);
   }
+}
+
+void Parser::AddSolving(CLI::App& command) {
+  AddSceneOptions(command, draft_);
+  AddStopOptions(command, draft_);
+  AddMethodOptions(command, draft_);
+  AddPlaceOptions(command, draft_);
+  AddServerOptions(command, draft_);
+  AddMeasureOptions(command, draft_);
+  AddProgressOption(command, draft_);
+  AddJsonOption(command, draft_);
+}
+
+void Parser::AddBench() {
+  CLI::App& bench = Add(Command::kBench, "bench", "error against rays and time, several methods");
+  AddOutputOption(bench, draft_);
+  AddSolving(bench);
+  AddBenchOptions(bench, draft_);
 }
 
 void Parser::AddJobs() {
@@ -284,6 +281,9 @@ std::vector<std::string> Parser::Warnings() const {
   if (chosen_->command == Command::kSubmit) {
     WarnOfEffectless({"reference", "region"}, "here: give it to lambert fetch", warnings);
   }
+  if (!options.bench.budgets.empty()) {
+    WarnOfEffectless({"max-rays", "max-time"}, "with --budgets", warnings);
+  }
   const bool measures = chosen_->command == Command::kBake || chosen_->command == Command::kFetch;
   if (options.reference_path.empty() && measures && method != Method::kImportance) {
     WarnOfEffectless({"region"}, "without --reference", warnings);
@@ -294,16 +294,19 @@ std::vector<std::string> Parser::Warnings() const {
 absl::Status Parser::CheckComplete() const {
   const Options& options = draft_.options;
   const std::string command = CommandName(*chosen_->parser);
-  const bool writes = options.command == Command::kBake || options.command == Command::kFetch;
+  const bool benches = options.command == Command::kBench;
+  const bool writes =
+      benches || options.command == Command::kBake || options.command == Command::kFetch;
   if (writes && options.out_folder.empty()) {
     return UsageError(command, "no folder for the result", "add -o DIR");
   }
-  const bool serverless = options.command == Command::kBake || options.command == Command::kPlan ||
-                          options.command == Command::kCompare;
+  const bool serverless = benches || options.command == Command::kBake ||
+                          options.command == Command::kPlan || options.command == Command::kCompare;
   if (!serverless && options.server.empty()) {
     return UsageError(command, "no server given", "add --server HOST:PORT, or set LAMBERT_SERVER");
   }
   if (absl::Status status = options.patch.Validate(); !status.ok()) return status;
+  if (benches) return ParseBenchEntries(options.bench.methods, options.solve).status();
   return options.solve.Validate();
 }
 
@@ -313,7 +316,8 @@ absl::StatusOr<ParsedLine> Parser::Finish(const Settings& settings) {
   if (!draft_.quality.empty() && LayerOf("quality", settings) > LayerOf("max-error", settings)) {
     draft_.options.solve.max_error = QualityError(draft_.quality);
   }
-  if (draft_.options.solve.shoot.method == Method::kImportance) {
+  if (draft_.options.solve.shoot.method == Method::kImportance ||
+      chosen_->command == Command::kBench) {
     draft_.options.solve.shoot.region = draft_.options.regions;
   }
   if (absl::Status status = CheckComplete(); !status.ok()) return status;

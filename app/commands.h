@@ -19,5 +19,6 @@ absl::StatusOr<ExitCode> RunDelete(const Options& options, Interrupt& interrupt)
 absl::StatusOr<ExitCode> RunJobs(const Options& options, Interrupt& interrupt);
 absl::StatusOr<ExitCode> RunWorkers(const Options& options, Interrupt& interrupt);
 absl::StatusOr<ExitCode> RunCompare(const Options& options, Interrupt& interrupt);
+absl::StatusOr<ExitCode> RunBench(const Options& options, Interrupt& interrupt);
 
 }  // namespace lambert::app

@@ -45,6 +45,8 @@ absl::StatusOr<ExitCode> RunCommand(const Options& options, Interrupt& interrupt
       return RunWorkers(options, interrupt);
     case Command::kCompare:
       return RunCompare(options, interrupt);
+    case Command::kBench:
+      return RunBench(options, interrupt);
   }
   return ExitCode::kUsage;
 }

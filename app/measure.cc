@@ -1,5 +1,6 @@
 #include "app/measure.h"
 
+#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -7,6 +8,25 @@
 #include "app/settings.h"
 
 namespace lambert::app {
+
+namespace {
+
+constexpr size_t kListedNodes = 20;
+
+// "give one of its nodes: 0 (floor), 1 (desk), 2, ..."
+std::string NodeChoices(const std::vector<std::string>& node_names) {
+  std::string text;
+  for (size_t node = 0; node < std::min(node_names.size(), kListedNodes); ++node) {
+    text += (node == 0 ? "" : ", ") + std::to_string(node);
+    if (!node_names[node].empty()) text += " (" + node_names[node] + ")";
+  }
+  if (node_names.size() > kListedNodes) {
+    text += " ... " + std::to_string(node_names.size() - 1);
+  }
+  return "give the index or the name of one of its nodes: " + text;
+}
+
+}  // namespace
 
 absl::StatusOr<std::set<int>> FindRegions(const std::vector<std::string>& regions,
                                           const std::vector<std::string>& node_names) {
@@ -29,8 +49,7 @@ absl::StatusOr<std::set<int>> FindRegions(const std::vector<std::string>& region
     }
     const std::string nearest = NearestWord(region, node_names);
     return UsageError("--region", "the scene has no node '" + region + "'",
-                      nearest.empty() ? "give a node's name or its glTF index"
-                                      : "did you mean '" + nearest + "'");
+                      nearest.empty() ? NodeChoices(node_names) : "did you mean '" + nearest + "'");
   }
   return nodes;
 }

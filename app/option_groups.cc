@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <functional>
-#include <limits>
 
+#include "app/bench_list.h"
+#include "app/option_checks.h"
 #include "fmt/format.h"
 #include "radiosity/core/error.h"
 #include "radiosity/shoot/settings.h"
@@ -19,59 +18,13 @@ constexpr char kMethod[] = "Method";
 constexpr char kPyramids[] = "Pyramids of the methods phs, hs and importance";
 constexpr char kPlace[] = "Where it runs";
 constexpr char kMeasure[] = "Measured error";
+constexpr char kBench[] = "What is compared";
 constexpr char kTerminal[] = "Terminal";
 
-// A check without a name of its own, so that --help shows only our words.
-CLI::Validator Check(std::function<std::string(std::string&)> check) {
-  return CLI::Validator(std::move(check), "");
+// Options that bake has and bench replaces.
+void RemoveOptions(CLI::App& command, const std::vector<std::string>& names) {
+  for (const std::string& name : names) command.remove_option(command.get_option(name));
 }
-
-bool ReadNumber(const std::string& text, double& value) {
-  const char* end = text.data() + text.size();
-  auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end && std::isfinite(value);
-}
-
-CLI::Validator NumberFrom(double low, double high = std::numeric_limits<double>::infinity()) {
-  return Check([low, high](std::string& text) -> std::string {
-    double value = 0;
-    if (ReadNumber(text, value) && value >= low && value <= high) return "";
-    if (std::isinf(high)) return fmt::format("'{}' is not a number of at least {}", text, low);
-    return fmt::format("'{}' is not a number from {} to {}", text, low, high);
-  });
-}
-
-// Whole numbers; also as 1e7, and with k, M or G for thousands, millions, billions.
-CLI::Validator CountFrom(int64_t low, int64_t high) {
-  return Check([low, high](std::string& text) -> std::string {
-    const std::string given = text;
-    std::string digits = text;
-    double scale = 1;
-    if (!digits.empty()) {
-      const char suffix = digits.back();
-      scale = suffix == 'k' ? 1e3 : suffix == 'M' ? 1e6 : suffix == 'G' ? 1e9 : 1;
-      if (scale > 1) digits.pop_back();
-    }
-    double value = 0;
-    // 2^53: every whole number up to there is exact in a double.
-    const bool is_count = ReadNumber(digits, value) && value * scale == std::floor(value * scale) &&
-                          std::abs(value * scale) <= 9007199254740992.0;
-    if (!is_count || value * scale < low || value * scale > high) {
-      return fmt::format("'{}' is not a whole number from {} to {}", given, low, high);
-    }
-    text = fmt::format("{}", static_cast<int64_t>(value * scale));
-    return "";
-  });
-}
-
-CLI::Validator OneOf(const std::vector<std::string>& choices) {
-  return Check([choices](std::string& text) -> std::string {
-    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return "";
-    return fmt::format("'{}' is not one of {}", text, fmt::join(choices, ", "));
-  });
-}
-
-constexpr int64_t kAnyCount = 9007199254740992;  // 2^53
 
 std::string MethodNames() {
   std::vector<std::string> names;
@@ -244,6 +197,55 @@ void AddProgressOption(CLI::App& command, Draft& draft) {
 void AddJsonOption(CLI::App& command, Draft& draft) {
   command.add_flag("--json", draft.options.json, "results and errors as JSON on standard output")
       ->group(kTerminal);
+}
+
+void AddBenchOptions(CLI::App& command, Draft& draft) {
+  BenchOptions& bench = draft.options.bench;
+  RemoveOptions(command, {"SCENE", "--method", "--max-error", "--quality"});
+  for (const char* budget : {"--max-rays", "--max-time"}) command.get_option(budget)->group(kBench);
+  command.add_option("SCENE", bench.scenes, ".glb or .gltf files; several get a folder each")
+      ->option_text("(required)")
+      ->required();
+  command
+      .add_option("--methods", bench.methods,
+                  "methods, by commas: all (default), pmcr, phs:depth=3:sampling=solid-angle, ...")
+      ->option_text("LIST")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group(kBench);
+  command.add_option("--seeds", bench.seeds, "runs of each method and budget (4)")
+      ->option_text("N")
+      ->transform(CountFrom(1, 10000))
+      ->group(kBench);
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--budgets",
+          [&bench](const std::vector<std::string>& texts) {
+            bench.budgets.clear();
+            for (const std::string& text : texts) bench.budgets.push_back(*ParseBenchBudget(text));
+          },
+          "where errors are measured, by commas: rays (200k,2M) or seconds (1s,5s); absent: five\n"
+          "steps up to --max-rays (5M) or --max-time")
+      ->option_text("LIST")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(Check([](std::string& text) -> std::string {
+        if (ParseBenchBudget(text).ok()) return "";
+        return fmt::format("'{}' is neither rays (200k) nor seconds (1.5s)", text);
+      }))
+      ->group(kBench);
+  command
+      .add_option("--reference-rays", bench.reference_rays,
+                  "rays of the reference that is made (absent: 20 times the largest budget)")
+      ->option_text("N")
+      ->transform(CountFrom(1, kAnyCount))
+      ->group(kMeasure);
+  command
+      .add_option("--reference-error", bench.reference_error,
+                  "residual to which it is made, estimated; without --reference-rays, however long")
+      ->option_text("F")
+      ->check(NumberFrom(0))
+      ->group(kMeasure);
 }
 
 }  // namespace lambert::app

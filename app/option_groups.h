@@ -1,4 +1,5 @@
-// The options of the subcommands, in groups as `--help` shows them. Only command_line.cc uses this.
+// The options of the subcommands, in groups as `--help` shows them. For the files that build the
+// command line.
 #pragma once
 
 #include <string>
@@ -24,6 +25,9 @@ void AddMeasureOptions(CLI::App& command, Draft& draft);  // --reference, --regi
 void AddOutputOption(CLI::App& command, Draft& draft);    // -o
 void AddProgressOption(CLI::App& command, Draft& draft);  // --progress
 void AddJsonOption(CLI::App& command, Draft& draft);      // --json
+
+// SCENE... and what bake has and bench does not take away; --methods, --seeds, --budgets, ...
+void AddBenchOptions(CLI::App& command, Draft& draft);
 
 // The wanted error that a --quality stands for. Requires: one of preview, draft, final.
 double QualityError(const std::string& quality);

@@ -21,9 +21,26 @@ enum class Command {
   kJobs,
   kWorkers,
   kCompare,
+  kBench,
 };
 
 enum class ProgressMode { kAuto, kBar, kPlain, kJson, kNone };
+
+// When one run of a bench ends: one of both is 0.
+struct BenchBudget {
+  int64_t rays = 0;
+  double seconds = 0;
+};
+
+// What only `lambert bench` asks for.
+struct BenchOptions {
+  std::vector<std::string> scenes;   // .glb or .gltf files
+  std::vector<std::string> methods;  // as written (bench_list.h); empty: all
+  int seeds = 4;                     // > 0: solve.seed and those after it
+  std::vector<BenchBudget> budgets;  // empty: from solve.max_rays and solve.max_time_s
+  int64_t reference_rays = 0;        // both halves together; 0: kReferenceFactor times the largest
+  double reference_error = 0;        // wanted residual of the reference; 0: none wanted
+};
 
 struct Options {
   Options() { solve.shoot.method = Method::kAuto; }
@@ -32,12 +49,13 @@ struct Options {
 
   std::string scene_path;         // bake, plan, submit: a .glb or .gltf file
   std::string job;                // watch, fetch, cancel, delete: "solveJobs/ID"
-  std::string out_folder;         // bake, fetch
+  std::string out_folder;         // bake, fetch, bench
   std::string compare_path;       // compare: the table that is judged
   std::string compare_reference;  // compare: the table that it is judged by
 
   PatchOptions patch;
   SolveOptions solve;
+  BenchOptions bench;
 
   std::string server;       // HOST:PORT; "": the whole service in this process
   double reconnect_s = 60;  // how long a server that has gone is tried again, seconds

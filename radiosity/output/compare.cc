@@ -41,33 +41,6 @@ bool PairedByIndex(const PatchTable& a, const PatchTable& b) {
   return true;
 }
 
-// For every patch of `table` its partner in `reference`.
-absl::StatusOr<std::vector<PatchIndex>> PairPatches(const PatchTable& table,
-                                                    const PatchTable& reference) {
-  std::vector<PatchIndex> partner(table.size());
-  if (PairedByIndex(table, reference)) {
-    for (PatchIndex i = 0; i < table.size(); ++i) partner[i] = i;
-    return partner;
-  }
-  std::map<PatchKey, PatchIndex> by_key;
-  for (PatchIndex i = 0; i < reference.size(); ++i) by_key.emplace(KeyOf(reference, i), i);
-  PatchIndex lonely = 0;
-  for (PatchIndex i = 0; i < table.size(); ++i) {
-    const auto found = by_key.find(KeyOf(table, i));
-    if (found == by_key.end()) {
-      ++lonely;
-    } else {
-      partner[i] = found->second;
-    }
-  }
-  if (lonely == 0 && table.size() == reference.size()) return partner;
-  return MakeError(absl::StatusCode::kInvalidArgument,
-                   {"TABLES_DIFFER", "reference",
-                    std::to_string(lonely) + " of " + std::to_string(table.size()) +
-                        " patches have no partner among its " + std::to_string(reference.size()),
-                    "solve both for the same scene with the same --max-edge and --two-sided"});
-}
-
 // One patch as the measures see it.
 struct Row {
   double area_m2, error, reflected;  // error and reflected: mean of the channels [lm/m2]
@@ -117,6 +90,32 @@ double RelativeP95(const std::vector<Row>& rows, double mean_reflected) {
 }
 
 }  // namespace
+
+absl::StatusOr<std::vector<PatchIndex>> PairPatches(const PatchTable& table,
+                                                    const PatchTable& reference) {
+  std::vector<PatchIndex> partner(table.size());
+  if (PairedByIndex(table, reference)) {
+    for (PatchIndex i = 0; i < table.size(); ++i) partner[i] = i;
+    return partner;
+  }
+  std::map<PatchKey, PatchIndex> by_key;
+  for (PatchIndex i = 0; i < reference.size(); ++i) by_key.emplace(KeyOf(reference, i), i);
+  PatchIndex lonely = 0;
+  for (PatchIndex i = 0; i < table.size(); ++i) {
+    const auto found = by_key.find(KeyOf(table, i));
+    if (found == by_key.end()) {
+      ++lonely;
+    } else {
+      partner[i] = found->second;
+    }
+  }
+  if (lonely == 0 && table.size() == reference.size()) return partner;
+  return MakeError(absl::StatusCode::kInvalidArgument,
+                   {"TABLES_DIFFER", "reference",
+                    std::to_string(lonely) + " of " + std::to_string(table.size()) +
+                        " patches have no partner among its " + std::to_string(reference.size()),
+                    "solve both for the same scene with the same --max-edge and --two-sided"});
+}
 
 absl::StatusOr<ErrorMeasures> Compare(const PatchTable& table, const PatchTable& reference,
                                       const std::set<int>& region_nodes) {

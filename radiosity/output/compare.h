@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "radiosity/output/patch_table.h"
@@ -19,9 +20,13 @@ struct ErrorMeasures {
   std::optional<double> power_bias;  // reflected flux over the reference's, minus 1
 };
 
-// Patches are paired by index where both tables have equally many with equal areas, else by origin
-// (node, mesh, primitive, triangle) and corners. `region_nodes` are glTF node indices.
-// INVALID_ARGUMENT (reason TABLES_DIFFER) where patches have no partner; NOT_FOUND (reason
+// For every patch of `table` its partner in `reference`: by index where both tables have equally
+// many with equal areas, else by origin (node, mesh, primitive, triangle) and corners.
+// INVALID_ARGUMENT (reason TABLES_DIFFER) where patches have no partner.
+absl::StatusOr<std::vector<PatchIndex>> PairPatches(const PatchTable& table,
+                                                    const PatchTable& reference);
+
+// `region_nodes` are glTF node indices. Fails as PairPatches does, and with NOT_FOUND (reason
 // REGION_EMPTY) where a region is named that has no patch.
 absl::StatusOr<ErrorMeasures> Compare(const PatchTable& table, const PatchTable& reference,
                                       const std::set<int>& region_nodes = {});

@@ -67,8 +67,10 @@ void SetSize(const View& view, int longer_side, Picture& picture) {
   picture.patch.resize(pixels, kNoPatch);
 }
 
-// One ray through the middle of every pixel, and the exposure from what they see.
-void DrawMiddles(const Painter& painter, Picture& picture) {
+// One ray through the middle of every pixel, and the exposure from what they see where none is
+// given.
+void DrawMiddles(const Painter& painter, const std::optional<Exposure>& exposure,
+                 Picture& picture) {
   std::vector<Rgb> reflected, emitted;
   std::vector<Sample> samples(picture.patch.size());
   for (int y = 0; y < picture.height; ++y) {
@@ -84,7 +86,7 @@ void DrawMiddles(const Painter& painter, Picture& picture) {
       emitted.push_back(sample.emitted);
     }
   }
-  picture.exposure = ChooseExposure(reflected, emitted);
+  picture.exposure = exposure ? *exposure : ChooseExposure(reflected, emitted);
   for (size_t pixel = 0; pixel < samples.size(); ++pixel) {
     picture.display[pixel] = Display(samples[pixel], picture.exposure);
   }
@@ -139,11 +141,12 @@ void RefinePixel(const Painter& painter, int x, int y, Picture& picture) {
 
 Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& scene,
                     const Solution& solution,
-                    const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx, int longer_side) {
+                    const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx, int longer_side,
+                    const std::optional<Exposure>& exposure) {
   Picture picture;
   SetSize(view, longer_side, picture);
   const Painter painter(view, patches, scene, solution, corner_irradiance_lx);
-  DrawMiddles(painter, picture);
+  DrawMiddles(painter, exposure, picture);
   const std::vector<bool> rough = RoughPixels(picture);
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
@@ -151,6 +154,15 @@ Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& s
     }
   }
   return picture;
+}
+
+std::vector<std::array<Rgb, 3>> FlatIrradiance(const std::vector<Rgb>& irradiance_lx) {
+  std::vector<std::array<Rgb, 3>> corners;
+  corners.reserve(irradiance_lx.size());
+  for (const Rgb& irradiance : irradiance_lx) {
+    corners.push_back({irradiance, irradiance, irradiance});
+  }
+  return corners;
 }
 
 }  // namespace lambert

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "radiosity/output/exposure.h"
@@ -26,11 +27,14 @@ struct Picture {
 
 // Draws a picture whose longer side has `longer_side` pixels: one ray a pixel, 16 where neighbours
 // differ. Irradiance is interpolated between corners (`corner_irradiance_lx`, from
-// SmoothIrradiance); reflectance and exitance stay the patch's. The exposure is chosen from the
-// picture itself.
+// SmoothIrradiance); reflectance and exitance stay the patch's. Without an `exposure` one is chosen
+// from the picture itself.
 Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& scene,
                     const Solution& solution,
                     const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
-                    int longer_side = 960);
+                    int longer_side = 960, const std::optional<Exposure>& exposure = std::nullopt);
+
+// Corner irradiance for DrawPicture that shows every patch flat, as it was solved.
+std::vector<std::array<Rgb, 3>> FlatIrradiance(const std::vector<Rgb>& irradiance_lx);
 
 }  // namespace lambert

@@ -20,7 +20,8 @@ constexpr double kThroughWeight = 0.2;  // of what is seen through the backs of 
 constexpr double kFarthest = 1e5;       // distance of a usable camera, in diagonals of the scene
 constexpr double kNearlyAll = 0.9999;   // of a distance: nearer is in between
 constexpr double kGrazingCosine = 0.2;  // area seen at less is not seen well
-constexpr double kMargin = 1.06;        // around the scene in views from outside
+constexpr double kMargin = 1.06;        // around the scene in views from outside, and in close-ups
+constexpr double kEnlargement = 3;      // of a close-up that cannot be fitted
 
 double HalfHeight(double full_angle_degrees) {
   return std::tan(full_angle_degrees / 2 * std::numbers::pi / 180);
@@ -93,6 +94,22 @@ void AddOutsideViews(const Bounds& box, std::vector<View>& views) {
       views.push_back(view);
     }
   }
+}
+
+// Half the height that a view with these axes needs to show the box, in the unit of half_height; 0
+// where a corner is not in front of the eye.
+double FittingHalfHeight(const Bounds& box, const View& view) {
+  double half_height = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p{corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                 corner & 4 ? box.high.z : box.low.z};
+    const Vec3 way = p - view.eye;
+    const double depth = view.perspective ? Dot(way, view.forward) : 1;
+    if (!(depth > 0)) return 0;
+    half_height = std::max({half_height, std::abs(Dot(way, view.up)) / depth,
+                            std::abs(Dot(way, view.right)) / (depth * view.aspect)});
+  }
+  return kMargin * half_height;
 }
 
 struct Sight {
@@ -174,6 +191,28 @@ View CameraView(const Camera& camera) {
   view.half_height = camera.perspective ? std::tan(camera.yfov_rad / 2) : camera.half_height_m;
   view.aspect = camera.aspect > 0 ? std::clamp(camera.aspect, 0.25, 4.0) : kDefaultAspect;
   return view;
+}
+
+View Enlarged(const View& view, double factor) {
+  View near = view;
+  near.half_height /= factor;
+  return near;
+}
+
+View CloseUp(const View& view, const Bounds& box) {
+  View near = view;
+  const Vec3 way = box.Center() - view.eye;
+  if (view.perspective) {
+    near.forward = Normalized(way);
+    near.right = Normalized(Cross(near.forward, view.up));
+    near.up = Cross(near.right, near.forward);
+  } else {
+    near.eye = view.eye + view.right * Dot(way, view.right) + view.up * Dot(way, view.up);
+  }
+  const double half_height = FittingHalfHeight(box, near);
+  if (!(half_height > 0) || !IsFinite(near.right)) return Enlarged(view, kEnlargement);
+  near.half_height = std::min(half_height, view.half_height);
+  return near;
 }
 
 View ChooseView(const PatchSet& patches, const RayScene& scene,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "radiosity/output/bounds.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/trace/ray_scene.h"
 
@@ -27,6 +28,14 @@ struct View {
 // As the camera says. An aspect that the file leaves open becomes 3:2, one beyond 1:4 or 4:1 is
 // drawn in to that.
 View CameraView(const Camera& camera);
+
+// The middle of a view, `factor` times as large. Requires: factor > 0.
+View Enlarged(const View& view, double factor);
+
+// From the same place, turned to a box and narrowed until the box fills the picture, but not
+// widened beyond `view`. The middle of `view`, three times as large, where the box reaches behind
+// the eye.
+View CloseUp(const View& view, const Bounds& box);
 
 // The scene's first camera that sees something; else the best of some hundred views, from inside
 // and from outside, by the lit area that they see and how well it fills the picture.

@@ -49,6 +49,31 @@ TEST(DrawPicture, RadiosityIsExitancePlusReflectedIrradiance) {
   EXPECT_NEAR(picture.std_error_lm_per_m2[middle].g, 0.04, 1e-6);
 }
 
+TEST(DrawPicture, AnExposureThatIsGivenIsKept) {
+  const PatchSet patches = Wall({{0.5, 0.5, 0.5}, {}});
+  const auto scene = RayScene::Create(patches);
+  ASSERT_TRUE(scene.ok());
+  const Solution solution = LitBy(patches, [](Vec3) { return Rgb{8, 8, 8}; });
+  const Picture picture = DrawPicture(CameraView(patches.cameras[0]), patches, **scene, solution,
+                                      FlatIrradiance(solution.irradiance_lx), 60, Exposure{0.125});
+  EXPECT_EQ(picture.exposure.per_lm_per_m2, 0.125);
+  EXPECT_NEAR(picture.display[20 * 60 + 30].g, 4 * 0.125, 1e-6);
+}
+
+TEST(DrawPicture, FlatIrradianceShowsEveryPatchAsItWasSolved) {
+  const PatchSet patches = Wall({{1, 1, 1}, {}});
+  const auto scene = RayScene::Create(patches);
+  ASSERT_TRUE(scene.ok());
+  const Solution solution = LitBy(patches, [](Vec3 p) { return Rgb{9 + p.x, 9 + p.y, 9}; });
+  const Picture picture = DrawPicture(CameraView(patches.cameras[0]), patches, **scene, solution,
+                                      FlatIrradiance(solution.irradiance_lx), 60);
+  for (size_t pixel = 0; pixel < picture.patch.size(); ++pixel) {
+    if (picture.patch[pixel] == kNoPatch) continue;
+    EXPECT_NEAR(picture.irradiance_lx[pixel].g, solution.irradiance_lx[picture.patch[pixel]].g,
+                1e-5);
+  }
+}
+
 TEST(DrawPicture, ALinearFieldIsDrawnWithoutFacets) {
   const Picture picture = Draw(Wall({{1, 1, 1}, {}}), [](Vec3 p) {
     const double light = 10 + 3 * p.y;

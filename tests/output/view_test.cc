@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "radiosity/output/bounds.h"
 #include "tests/output/known_light.h"
@@ -42,6 +44,53 @@ TEST(View, RaysOfAnOrthographicCameraAreParallel) {
   const View::Ray ray = CameraView(camera).RayThrough(1, 0);
   EXPECT_EQ(ray.origin, (Vec3{3, 3, 0}));
   EXPECT_EQ(ray.direction, (Vec3{0, 0, -1}));
+}
+
+TEST(Enlarged, ShowsTheMiddle) {
+  View view;
+  view.half_height = 0.6;
+  const View::Ray near = Enlarged(view, 3).RayThrough(1, 0.5);
+  EXPECT_NEAR(near.direction.x, 0.2 * view.aspect, 1e-12);
+  EXPECT_EQ(near.direction.z, -1);
+}
+
+// Where a point stands in the picture: 0..1 from left to right and from top to bottom.
+std::pair<double, double> PlaceOf(const View& view, Vec3 point) {
+  const Vec3 way = point - view.eye;
+  const double depth = view.perspective ? Dot(way, view.forward) : 1;
+  return {0.5 + Dot(way, view.right) / (2 * depth * view.half_height * view.aspect),
+          0.5 - Dot(way, view.up) / (2 * depth * view.half_height)};
+}
+
+TEST(CloseUp, ABoxFillsThePicture) {
+  for (bool perspective : {true, false}) {
+    View view;
+    view.perspective = perspective;
+    view.half_height = perspective ? 1 : 20;
+    const Bounds box{{3, 1, -12}, {5, 2, -10}};
+    const View near = CloseUp(view, box);
+    double farthest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const auto [x, y] =
+          PlaceOf(near, {corner & 1 ? 5. : 3., corner & 2 ? 2. : 1., corner & 4 ? -10. : -12.});
+      farthest = std::max({farthest, std::abs(x - 0.5), std::abs(y - 0.5)});
+    }
+    EXPECT_LT(farthest, 0.5) << perspective;
+    EXPECT_GT(farthest, 0.45) << perspective;
+  }
+}
+
+TEST(CloseUp, IsNeverWiderThanTheView) {
+  View view;
+  view.half_height = 0.1;
+  EXPECT_EQ(CloseUp(view, {{-9, -9, -12}, {9, 9, -10}}).half_height, 0.1);
+}
+
+TEST(CloseUp, OfABoxAroundTheEyeIsTheMiddle) {
+  const View view;
+  const View near = CloseUp(view, {{-1, -1, -1}, {1, 1, 1.5}});
+  EXPECT_EQ(near.forward, view.forward);
+  EXPECT_NEAR(near.half_height, view.half_height / 3, 1e-12);
 }
 
 TEST(CameraView, OpenAndExtremeAspectsBecomeDrawable) {
