@@ -26,6 +26,12 @@ void Flight::Land() {
     if (next >= 0) arrivals_.Prefetch(next);
     Arrive(batch_.hit[k], flux_[0][k], flux_[1][k], flux_[2][k]);
   }
+  for (int k = 0; watch_ && k < batch_.size; ++k) {
+    if (seer_[k] >= 0 && batch_.hit[k] >= 0) {
+      result_.sightings.push_back({seer_[k], cell_[k], batch_.hit[k], 1});
+    }
+    seer_[k] = kNoPatch;
+  }
   result_.rays += batch_.size;
   batch_.size = 0;
 }

@@ -1,7 +1,9 @@
 // Rays on their way: gathered from any emitters, traced and deposited together.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 
 #include "radiosity/shoot/arrivals.h"
 #include "radiosity/shoot/unit.h"
@@ -20,15 +22,20 @@ struct Deal {
 // One thread at a time. What lands is added to `arrivals` and `result`, which must outlive it.
 class Flight {
  public:
-  Flight(const RayScene& scene, Arrivals& arrivals, UnitResult& result)
-      : scene_(scene), arrivals_(arrivals), result_(result) {}
+  // `watch`: what is seen is kept in the result's sightings (unordered until they are combined).
+  Flight(const RayScene& scene, Arrivals& arrivals, UnitResult& result, bool watch)
+      : scene_(scene), arrivals_(arrivals), result_(result), watch_(watch) {
+    std::fill(std::begin(seer_), std::end(seer_), kNoPatch);
+  }
 
   RayBatch& batch() { return batch_; }
   float* weight() { return weight_; }  // by slot; room for a sampler
-  int32_t* cell() { return cell_; }    // room for a sampler
+  int32_t* cell() { return cell_; }    // by slot; room for a sampler
   // Rays that fit before the batch has to land; lands it when none fits.
   uint32_t Room();
   void SetFlux(int slot, int channel, int64_t quanta) { flux_[channel][slot] = quanta; }
+  // Says whose ray is in a slot, and that what it hits through cell()[slot] is to be told.
+  void Watch(int slot, PatchIndex emitter) { seer_[slot] = emitter; }
   // Multiplies the flux of slots begin .. end by their weights, rounded to the nearest quantum.
   void ApplyWeights(int begin, int end);
   // Traces, deposits and empties the batch.
@@ -40,9 +47,11 @@ class Flight {
   const RayScene& scene_;
   Arrivals& arrivals_;
   UnitResult& result_;
+  const bool watch_;
   RayBatch batch_;
   alignas(64) float weight_[RayBatch::kSlots];
   int32_t cell_[RayBatch::kSlots];
+  PatchIndex seer_[RayBatch::kSlots];  // emitter of a ray that is watched, or kNoPatch
   alignas(64) int64_t flux_[3][RayBatch::kSlots];
 };
 

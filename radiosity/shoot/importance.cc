@@ -119,7 +119,8 @@ absl::StatusOr<std::vector<double>> HitWorth(const PatchSet& patches, const RayS
 
 absl::StatusOr<std::vector<double>> AllocationWeights(const PatchSet& patches,
                                                       const ShootOptions& options) {
-  if (options.allocation == Allocation::kFlux) return std::vector<double>{};
+  const bool by_flux = options.allocation == Allocation::kFlux;
+  if (by_flux && options.method != Method::kImportance) return std::vector<double>{};
   absl::StatusOr<std::unique_ptr<RayScene>> scene = RayScene::Create(patches);
   if (!scene.ok()) return scene.status();
   const Emitters emitters(patches, **scene);

@@ -30,7 +30,8 @@ absl::StatusOr<std::vector<double>> HitWorth(const PatchSet& patches, const RayS
                                              const Emitters& emitters, const ShootOptions& options);
 
 // Rays that each patch should get for a lumen of its flux, by sum_p f_p sqrt(S_p): of mean 1 over
-// the patches' emission; empty where all get the same. A tenth of the mean at least.
+// the patches' emission; empty where all get the same: by flux, and the method is not importance. A
+// tenth of the mean at least.
 absl::StatusOr<std::vector<double>> AllocationWeights(const PatchSet& patches,
                                                       const ShootOptions& options);
 

@@ -23,7 +23,7 @@ namespace lambert {
 namespace {
 
 // Changes whenever the same unit would give other bytes.
-constexpr char kCodeVersion[] = "shoot-2";
+constexpr char kCodeVersion[] = "shoot-3";
 
 // Flushes denormals while it lives: they are slow, and different where a thread forgets to.
 class DenormalsFlushed {
@@ -93,7 +93,9 @@ absl::Status EmbreeShooter::Check(const WorkUnit& unit) const {
   for (const Visit& v : unit.visits) {
     const bool in_range = v.emitter >= 0 && v.emitter < emitters_.size() &&
                           v.ray_begin <= v.ray_end && v.ray_end <= v.ray_count;
-    if (!in_range || v.quanta[0] < 0 || v.quanta[1] < 0 || v.quanta[2] < 0) {
+    const size_t cells = directions_ == nullptr ? 0 : directions_->sampler().fractions().size();
+    const bool seen_fits = v.seen.empty() || v.seen.size() == cells;
+    if (!in_range || !seen_fits || v.quanta[0] < 0 || v.quanta[1] < 0 || v.quanta[2] < 0) {
       return MakeError(absl::StatusCode::kInvalidArgument,
                        {"FIELD_INVALID", "work unit, emitter " + std::to_string(v.emitter),
                         "its rays or quanta are out of range", "send units of this patch set"});
@@ -112,7 +114,8 @@ absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
   const double start = ThreadCpuSeconds();
   UnitResult result;
   std::unique_ptr<Arrivals> arrivals = arrivals_.Borrow();
-  auto flight = std::make_unique<Flight>(*scene_, *arrivals, result);
+  const bool watch = options_.method == Method::kPhsAlpha;
+  auto flight = std::make_unique<Flight>(*scene_, *arrivals, result, watch);
   for (const Visit& visit : unit.visits) {
     const RandomStream stream{unit.seed, static_cast<uint32_t>(visit.emitter), unit.step,
                               unit.pass};
@@ -129,6 +132,7 @@ absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
   }
   flight->Land();
   result.deposits = arrivals->Take();
+  CombineSightings(result.sightings);
   arrivals_.Return(std::move(arrivals));
   result.cpu_seconds = ThreadCpuSeconds() - start;
   return result;
@@ -161,7 +165,10 @@ void EmbreeShooter::ShootVisit(const Visit& visit, const RayNumbers& numbers,
 
 void EmbreeShooter::ShootDivided(const Visit& visit, const RayNumbers& numbers,
                                  Flight& flight) const {
-  const std::shared_ptr<const Directions> directions = directions_->Get(visit.emitter);
+  const std::shared_ptr<const Directions> directions =
+      visit.seen.empty() ? directions_->Get(visit.emitter)
+                         : std::make_shared<const Directions>(
+                               directions_->FromWorth({visit.seen.begin(), visit.seen.end()}));
   const double offset = RandomNumbers(numbers.stream(), 0, RandomPurpose::kPyramidOffset)[0];
   ShootStage(visit, {0, visit.ray_count, visit.quanta}, *directions,
              CellRays(directions->densities, visit.ray_count, offset), numbers, flight);
@@ -206,8 +213,8 @@ void EmbreeShooter::ShootStage(const Visit& visit, const Stage& stage, const Dir
   uint32_t pending_from = std::max(stage.first, visit.ray_begin), pending = 0;
   int first_slot = flight.batch().size;
   const auto append = [&] {
-    sampler.Append(frame, directions, flight.cell(), numbers, pending_from, pending_from + pending,
-                   flight.batch(), flight.weight());
+    sampler.Append(frame, directions, flight.cell() + first_slot, numbers, pending_from,
+                   pending_from + pending, flight.batch(), flight.weight());
     if (sampler.weighted()) flight.ApplyWeights(first_slot, first_slot + static_cast<int>(pending));
     pending_from += pending;
     pending = 0;
@@ -236,7 +243,9 @@ void EmbreeShooter::ShootStage(const Visit& visit, const Stage& stage, const Dir
         }
         if (pending == 0) first_slot = flight.batch().size;
         const int slot = first_slot + static_cast<int>(pending);
-        flight.cell()[pending++] = static_cast<int32_t>(p);
+        flight.cell()[slot] = static_cast<int32_t>(p);
+        flight.Watch(slot, visit.emitter);
+        ++pending;
         for (int c = 0; c < 3; ++c) flight.SetFlux(slot, c, deals[c].Of(ray - cell_begin));
       }
     }

@@ -8,8 +8,8 @@
 namespace lambert {
 namespace {
 
-constexpr uint32_t kUnitMagic = 0x3155574C;    // "LWU1"
-constexpr uint32_t kResultMagic = 0x3152554C;  // "LUR1"
+constexpr uint32_t kUnitMagic = 0x3255574C;    // "LWU2"
+constexpr uint32_t kResultMagic = 0x3252554C;  // "LUR2"
 
 struct UnitHeader {
   uint32_t magic = kUnitMagic;
@@ -22,22 +22,26 @@ struct VisitBytes {
   int32_t emitter;
   uint32_t ray_count, ray_begin, ray_end;
   int64_t quanta[3];
+  uint32_t seen, reserved;  // counts that follow
 };
-static_assert(sizeof(VisitBytes) == 40);
+static_assert(sizeof(VisitBytes) == 48);
+constexpr uint32_t kMaxSeen = 65536;
 
 struct ResultHeader {
   uint32_t magic = kResultMagic;
   uint32_t entries = 0;  // patches that were hit
   int64_t shot[3], escaped[3];
   int64_t rays = 0;
+  uint64_t sightings = 0;
 };
-static_assert(sizeof(ResultHeader) == 64);
+static_assert(sizeof(ResultHeader) == 72);
 
 struct DepositBytes {
   uint32_t patch, hits;
   int64_t quanta[3];
 };
 static_assert(sizeof(DepositBytes) == 32);
+static_assert(sizeof(Sighting) == 16);
 
 absl::Status Corrupt(const std::string& what, const std::string& why) {
   return MakeError(absl::StatusCode::kDataLoss,
@@ -67,7 +71,24 @@ std::vector<Deposit> Merge(const std::vector<Deposit>& a, const std::vector<Depo
   return merged;
 }
 
+std::array<int32_t, 3> Place(const Sighting& s) { return {s.emitter, s.cell, s.patch}; }
+
 }  // namespace
+
+void CombineSightings(std::vector<Sighting>& sightings) {
+  std::sort(sightings.begin(), sightings.end(),
+            [](const Sighting& a, const Sighting& b) { return Place(a) < Place(b); });
+  size_t kept = 0;
+  for (size_t k = 0; k < sightings.size(); ++k) {
+    if (kept > 0 && Place(sightings[kept - 1]) == Place(sightings[k])) {
+      Sighting& before = sightings[kept - 1];
+      before.times = std::min(before.times + sightings[k].times, kManyTimes);
+    } else {
+      sightings[kept++] = sightings[k];
+    }
+  }
+  sightings.resize(kept);
+}
 
 int64_t WorkUnit::RayCount() const {
   int64_t rays = 0;
@@ -77,6 +98,10 @@ int64_t WorkUnit::RayCount() const {
 
 void MergeResult(const UnitResult& from, UnitResult& into) {
   into.deposits = Merge(from.deposits, into.deposits);
+  if (!from.sightings.empty()) {
+    into.sightings.insert(into.sightings.end(), from.sightings.begin(), from.sightings.end());
+    CombineSightings(into.sightings);
+  }
   Add(from.shot, into.shot);
   Add(from.escaped, into.escaped);
   into.rays += from.rays;
@@ -103,6 +128,9 @@ absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result) {
     hits += deposit.hits;
   }
   if (hits > rays) return Corrupt("unit result", "more rays arrived than were shot");
+  if (result.sightings.size() > static_cast<size_t>(hits)) {
+    return Corrupt("unit result", "more was seen than rays arrived");
+  }
   for (int c = 0; c < 3; ++c) {
     if (hits == rays && result.escaped[c] != 0) {
       return Corrupt("unit result", "flux is missing although every ray arrived");
@@ -126,8 +154,14 @@ std::string EncodeUnit(const WorkUnit& unit) {
   header.step = unit.step;
   writer.Put(header);
   for (const Visit& v : unit.visits) {
-    writer.Put(VisitBytes{
-        v.emitter, v.ray_count, v.ray_begin, v.ray_end, {v.quanta[0], v.quanta[1], v.quanta[2]}});
+    writer.Put(VisitBytes{v.emitter,
+                          v.ray_count,
+                          v.ray_begin,
+                          v.ray_end,
+                          {v.quanta[0], v.quanta[1], v.quanta[2]},
+                          static_cast<uint32_t>(v.seen.size()),
+                          0});
+    writer.PutArray(v.seen.data(), v.seen.size());
   }
   return writer.Take();
 }
@@ -136,17 +170,27 @@ absl::StatusOr<WorkUnit> DecodeUnit(const std::string& bytes) {
   ByteReader reader(bytes);
   UnitHeader header;
   if (!reader.Get(&header) || header.magic != kUnitMagic ||
-      reader.remaining() != header.visits * sizeof(VisitBytes)) {
+      header.visits > reader.remaining() / sizeof(VisitBytes)) {
     return Corrupt("work unit", "the bytes are not a work unit");
   }
   WorkUnit unit{header.seed, header.pass, header.step, {}};
   unit.visits.reserve(header.visits);
   for (uint32_t k = 0; k < header.visits; ++k) {
     VisitBytes v;
-    reader.Get(&v);
-    unit.visits.push_back(
-        {v.emitter, v.ray_count, v.ray_begin, v.ray_end, {v.quanta[0], v.quanta[1], v.quanta[2]}});
+    if (!reader.Get(&v) || v.reserved != 0 || v.seen > kMaxSeen ||
+        v.seen > reader.remaining() / sizeof(uint32_t)) {
+      return Corrupt("work unit", "the bytes are not a work unit");
+    }
+    std::vector<uint32_t> seen(v.seen);
+    reader.GetArray(seen.data(), seen.size());
+    unit.visits.push_back({v.emitter,
+                           v.ray_count,
+                           v.ray_begin,
+                           v.ray_end,
+                           {v.quanta[0], v.quanta[1], v.quanta[2]},
+                           std::move(seen)});
   }
+  if (!reader.Complete()) return Corrupt("work unit", "the bytes are not a work unit");
   return unit;
 }
 
@@ -157,11 +201,13 @@ std::string EncodeUnitResult(const UnitResult& result) {
   std::copy(result.shot.begin(), result.shot.end(), header.shot);
   std::copy(result.escaped.begin(), result.escaped.end(), header.escaped);
   header.rays = result.rays;
+  header.sightings = result.sightings.size();
   writer.Put(header);
   for (const Deposit& d : result.deposits) {
     writer.Put(DepositBytes{
         static_cast<uint32_t>(d.patch), static_cast<uint32_t>(d.hits), {d.r, d.g, d.b}});
   }
+  writer.PutArray(result.sightings.data(), result.sightings.size());
   return writer.Take();
 }
 
@@ -169,7 +215,9 @@ absl::StatusOr<UnitResult> DecodeUnitResult(const std::string& bytes, PatchIndex
   ByteReader reader(bytes);
   ResultHeader header;
   if (!reader.Get(&header) || header.magic != kResultMagic ||
-      reader.remaining() != header.entries * sizeof(DepositBytes)) {
+      header.sightings > reader.remaining() / sizeof(Sighting) ||
+      reader.remaining() !=
+          header.entries * sizeof(DepositBytes) + header.sightings * sizeof(Sighting)) {
     return Corrupt("unit result", "the bytes are not a unit's result");
   }
   UnitResult result;
@@ -187,6 +235,17 @@ absl::StatusOr<UnitResult> DecodeUnitResult(const std::string& bytes, PatchIndex
     previous = d.patch;
     result.deposits.push_back(
         {d.quanta[0], d.quanta[1], d.quanta[2], d.hits, static_cast<PatchIndex>(d.patch)});
+  }
+  result.sightings.resize(header.sightings);
+  reader.GetArray(result.sightings.data(), result.sightings.size());
+  std::array<int32_t, 3> last{-1, -1, -1};
+  for (const Sighting& seen : result.sightings) {
+    if (Place(seen) <= last || seen.emitter < 0 || seen.emitter >= patch_count || seen.cell < 0 ||
+        seen.cell >= static_cast<int32_t>(kMaxSeen) || seen.patch < 0 ||
+        seen.patch >= patch_count || seen.times < 1 || seen.times > kManyTimes) {
+      return Corrupt("unit result", "its sightings are out of order or out of range");
+    }
+    last = Place(seen);
   }
   return result;
 }

@@ -28,6 +28,9 @@ struct Visit {
   uint32_t ray_count = 0;
   uint32_t ray_begin = 0, ray_end = 0;
   Quanta quanta{};  // dealt over all ray_count rays: quotient, then one extra to the first
+  // Patches that rays of the emitter have hit so far through each cell of its hemisphere; empty:
+  // nothing is known (method phs-alpha).
+  std::vector<uint32_t> seen{};
   bool operator==(const Visit&) const = default;
 };
 
@@ -48,10 +51,24 @@ struct Deposit {
   bool operator==(const Deposit&) const = default;
 };
 
+// That rays of an emitter hit a patch through a cell of its hemisphere (JPS00, 3.3).
+struct Sighting {
+  int32_t emitter = 0, cell = 0;
+  PatchIndex patch = 0;
+  int32_t times = 1;  // 1, 2, or kManyTimes for more
+  bool operator==(const Sighting&) const = default;
+};
+inline constexpr int32_t kManyTimes = 3;
+
+// Sorts by emitter, cell and patch; what stands there more than once becomes one, its times added.
+void CombineSightings(std::vector<Sighting>& sightings);
+
 // Result of one unit, or of any number of merged units.
 struct UnitResult {
   // Of the patches that were hit, in order: the last rays of a pass hit few of many patches.
   std::vector<Deposit> deposits;
+  // In order, each once (method phs-alpha).
+  std::vector<Sighting> sightings;
   Quanta shot{};     // = sum of deposits + escaped, each channel
   Quanta escaped{};  // left the scene
   int64_t rays = 0;

@@ -11,11 +11,12 @@
 #include "radiosity/solve/flux_ledger.h"
 #include "radiosity/solve/plan.h"
 #include "radiosity/solve/replicates.h"
+#include "radiosity/solve/sightings.h"
 
 namespace lambert {
 namespace {
 
-constexpr uint32_t kCheckpointMagic = 0x3153534C;  // "LSS1"
+constexpr uint32_t kCheckpointMagic = 0x3253534C;  // "LSS2"
 // Passes grow: few are needed for any budget, and yet enough for a standard error.
 constexpr double kPassGrowth = 1.5;
 constexpr int32_t kFirstPasses = 2;        // one pass has no standard error
@@ -32,6 +33,7 @@ struct CheckpointHeader {
   uint8_t reserved[3] = {0, 0, 0};
   int64_t rays = 0, version = 0, pass_rays = 0;
   double cpu_seconds = 0, seconds = 0, unsent_fraction = 1, rays_per_first_ray = 1;
+  uint64_t replicates_bytes = 0;  // follow; the sightings come after
 };
 
 // Rays of a whole pass for each ray of its first step, before any pass has told: 1 / (1 - rho) with
@@ -117,6 +119,7 @@ struct Solver::State {
   int64_t steps_without_loss = 0;
   bool weighed = false;
   std::vector<double> weights;  // of the emitters, for AllocateRays
+  SightingTable sightings;      // of all passes: what was seen stays true
 };
 
 absl::Status Solver::State::Weigh() {
@@ -161,7 +164,13 @@ absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_
   const RandomStream stream{options.seed, 0, static_cast<uint32_t>(step),
                             static_cast<uint32_t>(at.next_pass)};
   const double offset = RandomNumbers(stream, 0, RandomPurpose::kPatchOffset)[0];
-  const StepPlan plan = AllocateRays(ledger.unsent(), flux_per_ray, offset, weights);
+  StepPlan plan = AllocateRays(ledger.unsent(), flux_per_ray, offset, weights);
+  if (options.shoot.method == Method::kPhsAlpha) {
+    for (Visit& visit : plan.visits) {
+      visit.seen = sightings.Counts(visit.emitter, options.shoot.pyramids.CellCount(),
+                                    options.shoot.pyramids.count_unseen);
+    }
+  }
   UnitResult result;
   if (plan.rays > 0) {
     absl::StatusOr<UnitResult> ran = executor.RunStep(
@@ -171,6 +180,7 @@ absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_
     result = *std::move(ran);
   }
   ledger.Book(plan, result);
+  sightings.Add(result.sightings);
   at.rays += result.rays;
   at.cpu_seconds += result.cpu_seconds;
   at.last_step = step++;
@@ -310,23 +320,32 @@ std::string Solver::EncodeCheckpoint() const {
   ByteWriter writer;
   CheckpointHeader header = state_->at;
   header.seconds = state_->Seconds();
-  writer.Put(header);
   const std::string replicates = state_->replicates.Encode();
+  const std::string sightings = state_->sightings.Encode();
+  header.replicates_bytes = replicates.size();
+  writer.Put(header);
   writer.PutArray(replicates.data(), replicates.size());
+  writer.PutArray(sightings.data(), sightings.size());
   return writer.Take();
 }
 
 absl::Status Solver::Restore(const std::string& checkpoint) {
   ByteReader reader(checkpoint);
   CheckpointHeader header;
-  if (!reader.Get(&header) || header.magic != kCheckpointMagic) {
+  if (!reader.Get(&header) || header.magic != kCheckpointMagic ||
+      header.replicates_bytes > reader.remaining()) {
     return MakeError(absl::StatusCode::kDataLoss,
                      {"CHECKPOINT_INVALID", "checkpoint", "the bytes are not a checkpoint",
                       "start the job again"});
   }
-  absl::Status status = state_->replicates.Restore(checkpoint.substr(sizeof(header)));
+  SightingTable sightings;
+  absl::Status status =
+      sightings.Restore(checkpoint.substr(sizeof(header) + header.replicates_bytes));
+  if (!status.ok()) return status;
+  status = state_->replicates.Restore(checkpoint.substr(sizeof(header), header.replicates_bytes));
   if (!status.ok()) return status;
   state_->at = header;
+  state_->sightings = std::move(sightings);
   state_->EstimateError();
   state_->started = state_->now();
   return absl::OkStatus();

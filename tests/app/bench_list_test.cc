@@ -63,8 +63,9 @@ TEST(BenchEntries, MistakesNameTheChoices) {
   EXPECT_EQ(Bad({"radiance"}).find("--methods radiance: there is no method 'radiance'; choose one"),
             0u);
   EXPECT_NE(Bad({"radiance"}).find("mcr, pmcr, hs97"), std::string::npos);
-  EXPECT_NE(Bad({"phs:dept=3"}).find("no setting 'dept'; choose one of allocation, alpha1, alpha2, "),
-            std::string::npos);
+  EXPECT_NE(
+      Bad({"phs:dept=3"}).find("no setting 'dept'; choose one of allocation, alpha1, alpha2, "),
+      std::string::npos);
   EXPECT_NE(Bad({"phs:seed=3"}).find("no setting 'seed'"), std::string::npos);
   EXPECT_NE(Bad({"pmcr:depth=3"}).find("no setting 'depth'"), std::string::npos);
   EXPECT_NE(Bad({"phs:depth=9"}).find("9 gives too many"), std::string::npos);

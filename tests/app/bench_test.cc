@@ -88,7 +88,7 @@ TEST_F(BenchTest, SeveralScenesGetAFolderEachAndABudgetMayBeTime) {
 TEST_F(BenchTest, MistakesAreUsageErrorsThatNameTheChoices) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
       {{"--methods", "radiance"}, "choose one of auto, mcr, pmcr"},
-      {{"--methods", "phs:dept=1"}, "choose one of initial, split, depth"},
+      {{"--methods", "phs:dept=1"}, "choose one of allocation, alpha1, alpha2"},
       {{"--budgets", "soon"}, "neither rays (200k) nor seconds (1.5s)"},
       {{"--region", "nowhere"}, "one of its nodes: 0"},
       {{"--budgts", "2"}, "did you mean --budgets"},

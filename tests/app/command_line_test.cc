@@ -59,8 +59,8 @@ TEST(CommandLine, EveryOptionOfTheContractActs) {
                                 "2",           "--phs-sampling",
                                 "solid-angle", "--phs-min-rays",
                                 "16",          "--phs-count-black",
-                                "--json",      "--progress",
-                                "json"});
+                                "yes",         "--json",
+                                "--progress",  "json"});
   EXPECT_EQ(options.command, Command::kBake);
   EXPECT_EQ(options.scene_path, "room.glb");
   EXPECT_EQ(options.out_folder, "out");
@@ -145,10 +145,12 @@ TEST(CommandLine, OfAQualityAndAnErrorTheStrongerSourceWinsAndThenTheNumber) {
 }
 
 TEST(CommandLine, MistakesNameTheChoices) {
+  std::string methods = "auto";
+  for (Method method : AllMethods()) methods += std::string(", ") + MethodName(method);
   EXPECT_EQ(Bad({}).find("lambert: no command given (bake, plan, submit"), 0u) << Bad({});
   EXPECT_NE(Bad({"bkae"}).find("did you mean lambert bake"), std::string::npos) << Bad({"bkae"});
   EXPECT_EQ(Bad({"bake", "a.glb", "-o", "out", "--method", "radiance"}),
-            "--method: 'radiance' is not one of auto, pmcr, phs; see lambert bake --help");
+            "--method: 'radiance' is not one of " + methods + "; see lambert bake --help");
   EXPECT_EQ(Bad({"bake", "a.glb", "-o", "out", "--max-eror", "1"}),
             "lambert bake: '--max-eror' is no option; did you mean --max-error");
   EXPECT_EQ(Bad({"bake", "a.glb", "b.glb", "-o", "out"}),
@@ -156,9 +158,9 @@ TEST(CommandLine, MistakesNameTheChoices) {
   EXPECT_EQ(Bad({"bake", "-o", "out"}), "lambert bake: SCENE is required; see lambert bake --help");
   EXPECT_EQ(Bad({"bake", "a.glb"}), "lambert bake: no folder for the result; add -o DIR");
   EXPECT_EQ(Bad({"plan", "a.glb"}, "method = \"x\"\n"),
-            "lambert.toml, method: 'x' is not one of auto, pmcr, phs; see lambert plan --help");
+            "lambert.toml, method: 'x' is not one of " + methods + "; see lambert plan --help");
   EXPECT_EQ(Bad({"plan", "a.glb"}, "", {{"LAMBERT_METHOD", "x"}}),
-            "LAMBERT_METHOD: 'x' is not one of auto, pmcr, phs; see lambert plan --help");
+            "LAMBERT_METHOD: 'x' is not one of " + methods + "; see lambert plan --help");
   EXPECT_NE(Bad({"jobs"}).find("no server given"), std::string::npos);
 }
 

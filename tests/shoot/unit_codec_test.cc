@@ -16,6 +16,7 @@ WorkUnit MakeUnit() {
   for (int k = 0; k < 12; ++k) {
     unit.visits.push_back({3 * k, 1000u + k, 10u * k, 10u * k + 5, {k, int64_t{1} << (40 + k), 0}});
   }
+  unit.visits[3].seen = {4, 0, 1u << 31};
   return unit;
 }
 
@@ -27,7 +28,30 @@ UnitResult MakeResult() {
   result.shot = {1000, 2000, 3000};
   result.escaped = {1, 2, 3};
   result.rays = 777;
+  result.sightings = {{0, 3, 7, 1}, {0, 4, 2, 3}, {49, 0, 0, 2}};
   return result;
+}
+
+// What `change` makes of a good result's sightings is refused.
+template <typename Change>
+bool Refused(Change change) {
+  UnitResult result = MakeResult();
+  change(result.sightings);
+  return !DecodeUnitResult(EncodeUnitResult(result), kPatches).ok();
+}
+
+TEST(UnitCodec, RefusesSightingsOutOfOrderOrRange) {
+  using List = std::vector<Sighting>;
+  EXPECT_FALSE(Refused([](List&) {}));
+  EXPECT_TRUE(Refused([](List& s) { std::swap(s[0], s[1]); }));
+  EXPECT_TRUE(Refused([](List& s) { s[1] = s[0]; }));
+  EXPECT_TRUE(Refused([](List& s) { s[2].emitter = kPatches; }));
+  EXPECT_TRUE(Refused([](List& s) { s[2].patch = kPatches; }));
+  EXPECT_TRUE(Refused([](List& s) { s[0].emitter = -1; }));
+  EXPECT_TRUE(Refused([](List& s) { s[0].cell = -1; }));
+  EXPECT_TRUE(Refused([](List& s) { s[0].cell = 65536; }));
+  EXPECT_TRUE(Refused([](List& s) { s[0].times = 0; }));
+  EXPECT_TRUE(Refused([](List& s) { s[0].times = 4; }));
 }
 
 void Damage(TestRandom& random, std::string& bytes) {
@@ -123,8 +147,8 @@ TEST(UnitCodec, AResultAboutPatchesThatDoNotExistIsRefused) {
 TEST(UnitCodec, PatchesOutOfOrderOrTwiceAreRefused) {
   UnitResult result = MakeResult();
   const std::string bytes = EncodeUnitResult(result);
-  constexpr size_t kHeader = 64, kEntry = 32;  // docs/formats.md
-  ASSERT_EQ(bytes.size(), kHeader + 13 * kEntry);
+  constexpr size_t kHeader = 72, kEntry = 32, kSighting = 16;  // docs/formats.md
+  ASSERT_EQ(bytes.size(), kHeader + 13 * kEntry + 3 * kSighting);
   std::string twice = bytes, swapped = bytes;
   twice.replace(kHeader + kEntry, kEntry, bytes, kHeader, kEntry);
   swapped.replace(kHeader, kEntry, bytes, kHeader + kEntry, kEntry);

@@ -24,6 +24,8 @@ inline SolveOptions Budget(Method method, int64_t max_rays, uint64_t seed = 1) {
   SolveOptions options;
   options.shoot.method = method;
   options.shoot.pyramids.min_rays = 64;
+  if (method == Method::kHs97) options.shoot.pyramids.probes = 1;
+  if (method == Method::kImportance) options.shoot.region = {"0"};
   options.max_rays = max_rays;
   options.seed = seed;
   return options;

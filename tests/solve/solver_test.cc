@@ -13,8 +13,14 @@ SharedPatches Cornell() {
   return patches;
 }
 
+// Those that shoot; each has state of its own kind.
+std::vector<Method> Methods() {
+  return {Method::kMcr, Method::kPmcr,     Method::kHs97,        Method::kHs98,
+          Method::kPhs, Method::kPhsAlpha, Method::kPhsAdaptive, Method::kImportance};
+}
+
 TEST(Solver, TheSameSeedGivesTheSameBytesAndAnotherSeedOthers) {
-  for (Method method : {Method::kPmcr, Method::kPhs}) {
+  for (Method method : Methods()) {
     SolverRun a(Cornell(), Budget(method, 60000, 7)), b(Cornell(), Budget(method, 60000, 7)),
         c(Cornell(), Budget(method, 60000, 8));
     for (SolverRun* run : {&a, &b, &c}) ASSERT_TRUE(run->ToTheEnd().ok());
@@ -37,7 +43,7 @@ TEST(Solver, TheRoundingOfRayNumbersDependsOnTheSeed) {
 }
 
 TEST(Solver, RestoredAfterAnyPassContinuesToTheSameBytes) {
-  for (Method method : {Method::kPmcr, Method::kPhs}) {
+  for (Method method : Methods()) {
     const SolveOptions options = Budget(method, 200000);
     SolverRun whole(Cornell(), options);
     std::vector<std::string> checkpoints = {whole.solver.EncodeCheckpoint()};
@@ -115,7 +121,7 @@ TEST(Solver, TellsOfEveryStepAsFluxIsSentUntilTheTolerance) {
 }
 
 TEST(Solver, BalancesItsLedgerAndMakesRadiosityOfIrradiance) {
-  for (Method method : {Method::kPmcr, Method::kPhs}) {
+  for (Method method : Methods()) {
     SolverRun run(Cornell(), Budget(method, 100000));
     ASSERT_TRUE(run.ToTheEnd().ok());
     const auto solution = run.solver.MakeSnapshot().solution;
