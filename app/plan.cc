@@ -120,6 +120,9 @@ absl::StatusOr<client::PlannedScene> MakePlanned(const SceneBundle& bundle, cons
   if (!patches.ok()) return patches.status();
   if (absl::Status status = CheckReference(*patches, options); !status.ok()) return status;
   if (!here) return PlanThere(bundle, options, interrupt);
+  if (absl::Status status = options.solve.shoot.ValidateFor(patches->size()); !status.ok()) {
+    return status;
+  }
   return client::PlannedScene{MakePlan(*patches, options.solve), patches->warnings};
 }
 

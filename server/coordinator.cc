@@ -108,6 +108,9 @@ absl::StatusOr<v1::PlanSceneResponse> Coordinator::PlanScene(const v1::PlanScene
   if (!scene.ok()) return scene.status();
   absl::StatusOr<PatchSet> patches = BuildPatches(*scene, options->patch);
   if (!patches.ok()) return patches.status();
+  if (absl::Status status = options->solve.shoot.ValidateFor(patches->size()); !status.ok()) {
+    return status;
+  }
   v1::PlanSceneResponse response;
   *response.mutable_plan() = EncodePlan(MakePlan(*patches, options->solve), request.spec());
   for (const Warning& warning : patches->warnings) {

@@ -95,6 +95,7 @@ struct Solver::State {
   Progress CurrentProgress() const;
   absl::Status RunOnePass(StepExecutor& executor,
                           const std::function<void(const Progress&)>& on_step);
+  StepPlan PlanStep(double flux_per_ray, const FluxLedger& ledger) const;
   // One step; false where the pass is over.
   absl::StatusOr<bool> RunStep(StepExecutor& executor, double flux_per_ray, FluxLedger& ledger);
   absl::Status CheckAbsorption(const StepPlan& plan, const UnitResult& result,
@@ -156,21 +157,28 @@ absl::Status Solver::State::CheckAbsorption(const StepPlan& plan, const UnitResu
                     "give some material a reflectance under 1"});
 }
 
-absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_per_ray,
-                                            FluxLedger& ledger) {
+StepPlan Solver::State::PlanStep(double flux_per_ray, const FluxLedger& ledger) const {
   const RandomStream stream{options.seed, 0, static_cast<uint32_t>(step),
                             static_cast<uint32_t>(at.next_pass)};
   const double offset = RandomNumbers(stream, 0, RandomPurpose::kPatchOffset)[0];
-  const StepPlan plan = AllocateRays(ledger.unsent(), flux_per_ray, offset, weights);
+  return AllocateRays(ledger.unsent(), flux_per_ray, offset, weights);
+}
+
+absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_per_ray,
+                                            FluxLedger& ledger) {
+  const bool whole = options.shoot.method == Method::kExact;  // a unit returns a solution
+  const StepPlan plan = whole ? PlanWholePass(ledger.unsent(), *patches, at.pass_rays)
+                              : PlanStep(flux_per_ray, ledger);
+  const int64_t unit_rays = whole ? plan.rays : UnitRays(plan.rays, patches->size());
   UnitResult result;
   if (plan.rays > 0) {
-    absl::StatusOr<UnitResult> ran = executor.RunStep(
-        CutIntoUnits(plan, options.seed, static_cast<uint32_t>(at.next_pass),
-                     static_cast<uint32_t>(step), UnitRays(plan.rays, patches->size())));
+    absl::StatusOr<UnitResult> ran =
+        executor.RunStep(CutIntoUnits(plan, options.seed, static_cast<uint32_t>(at.next_pass),
+                                      static_cast<uint32_t>(step), unit_rays));
     if (!ran.ok()) return ran.status();
     result = *std::move(ran);
   }
-  ledger.Book(plan, result);
+  whole ? ledger.BookSolution(plan, result) : ledger.Book(plan, result);
   at.rays += result.rays;
   at.cpu_seconds += result.cpu_seconds;
   at.last_step = step++;

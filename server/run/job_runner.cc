@@ -43,6 +43,9 @@ absl::Status JobRunner::Solve(Job& job) {
   if (!options.ok()) return options.status();
   absl::StatusOr<std::shared_ptr<const PatchSet>> patches = PreparePatches(job, options->patch);
   if (!patches.ok()) return patches.status();
+  if (absl::Status status = options->solve.shoot.ValidateFor((*patches)->size()); !status.ok()) {
+    return status;
+  }
   const Plan plan = MakePlan(**patches, options->solve);
   job.Update([&](v1::SolveJob& record) {
     *record.mutable_plan() = EncodePlan(plan, record.spec());
