@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "radiosity/exact/closure.h"
 #include "radiosity/exact/occluders.h"
 
 namespace lambert {
@@ -45,6 +46,7 @@ void Guess(const std::vector<Segments::Segment>& segments, const std::vector<boo
 Exchange::Exchange(const PatchSet& patches, const RayScene& scene)
     : patches_(patches),
       scene_(scene),
+      is_closed_(IsClosed(patches, scene)),
       unoccluded_{
           ExchangeMatrix(patches.size()),
           LightFractions(patches.point_lights.size(), std::vector<double>(patches.size()))} {
@@ -106,6 +108,7 @@ void Exchange::RunPilot() {
 Transport Exchange::Guess() const {
   Transport transport = unoccluded_;
   for (const Link& link : links_) Entry(link, transport) *= link.control;
+  if (is_closed_) transport.exchange.CloseRows(patches_.area_m2);
   return transport;
 }
 
@@ -146,6 +149,7 @@ Transport Exchange::Sample(const std::vector<double>& weights, int64_t rays, uin
     }
   }
   land();
+  if (is_closed_) transport.exchange.CloseRows(patches_.area_m2);
   return transport;
 }
 

@@ -44,8 +44,8 @@ class Exchange {
   // for each link), keyed by seed and pass. With w the kernel's weight of a sample, V its
   // visibility and c the link's control, a link of n samples has the unbiased
   //   c A_i F_ij + 1/n sum w (V - c)
-  // which is exact where the guess is. A link that expects under one sample gets one by chance and
-  // divides by what it expected.
+  // which is exact where the guess is. Rows of a closed scene are made to sum to one. A link that
+  // expects under one sample gets one by chance and divides by what it expected.
   Transport Sample(const std::vector<double>& weights, int64_t rays, uint64_t seed,
                    uint32_t pass) const;
 
@@ -57,6 +57,7 @@ class Exchange {
 
   const PatchSet& patches_;
   const RayScene& scene_;
+  const bool is_closed_;
   Transport unoccluded_;
   std::vector<Link> links_;
 };

@@ -2,6 +2,11 @@
 
 namespace lambert {
 
+void ExchangeMatrix::CloseRows(const std::vector<double>& areas) {
+  const std::vector<double> sums = Times(std::vector<double>(size_, 1.0));
+  for (PatchIndex i = 0; i < size_; ++i) self_[i] += areas[i] - sums[i];
+}
+
 std::vector<double> ExchangeMatrix::Times(const std::vector<double>& x) const {
   std::vector<double> y(size_);
   for (PatchIndex i = 0; i < size_; ++i) {
@@ -14,7 +19,7 @@ std::vector<double> ExchangeMatrix::Times(const std::vector<double>& x) const {
       sums[k % 4] += row[k] * right[k];
       below[k] += row[k] * x[i];
     }
-    y[i] += (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    y[i] += self_[i] * x[i] + (sums[0] + sums[1]) + (sums[2] + sums[3]);
   }
   return y;
 }
