@@ -19,7 +19,7 @@ struct Lighting {
 // arrives and G the exchange areas:  b = direct + G (emitted + rho b) / A.  Put symmetrically with
 // u = sqrt(rho) b / A  it is positive definite,
 //   (A - sqrt(rho) G sqrt(rho)) u = sqrt(rho) (direct + G emitted / A),
-// and solved by conjugate gradients, with A as preconditioner, to a residual of 1e-13.
+// and solved by conjugate gradients (HS52), with A as preconditioner, to a residual of 1e-13.
 // FAILED_PRECONDITION (SINGULAR_CLOSED_RHO_1) where flux has no way out.
 absl::StatusOr<std::vector<double>> ArrivedFlux(const ExchangeMatrix& exchange,
                                                 const Lighting& lighting);

@@ -1,5 +1,5 @@
-// Which triangles could stand between two others: the pairs that surely see each other need no
-// rays.
+// Which triangles could stand between two others: pairs that surely see each other need no rays
+// (shafts, HW91).
 #pragma once
 
 #include <vector>

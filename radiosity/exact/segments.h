@@ -27,7 +27,7 @@ class Segments {
     double weight;
   };
   // The `number`-th of a sequence that fills the four dimensions of both parts evenly, shifted by
-  // `shift` in 0..1: each alone is uniform (Roberts 2018, R4; Cranley and Patterson 1976).
+  // `shift` in 0..1: each alone is uniform (R4, Rob18; CP76).
   Segment Sample(const std::array<float, 4>& shift, int64_t number) const;
 
   Vec3 from_normal() const { return facing_.from_normal; }

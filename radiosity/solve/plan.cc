@@ -74,7 +74,7 @@ PlanItem DensityItem(const PatchSet& patches, const ShootOptions& shoot) {
 PlanItem ClearPairsItem() {
   return {"rays between patches in plain sight", true,
           "where nothing reaches into the hull of two patches their form factor is a closed form",
-          "a convex scene takes no rays at all"};
+          "every ray of a convex scene"};
 }
 
 // Large enough that sampling takes about as long as the linear system.
