@@ -85,8 +85,13 @@ bool Segments::near() const {
 }
 
 void SegmentTracer::Add(Vec3 from, Vec3 from_normal, Vec3 to, Vec3 to_normal) {
-  const Vec3 a = scene_.ToTrace(from) + from_normal * kOriginOffset;
-  const Vec3 d = scene_.ToTrace(to) + to_normal * kTieDistance - a;
+  const Vec3 end = scene_.ToTrace(to) + to_normal * kTieDistance;
+  // A point light may lie on a wall: it is lifted off towards what it lights, further than a
+  // patch's point as that may be at a flat angle.
+  const Vec3 lift =
+      from_normal == Vec3{} ? Normalized(to - from) * kTieDistance : from_normal * kOriginOffset;
+  const Vec3 a = scene_.ToTrace(from) + lift;
+  const Vec3 d = end - a;
   RayBatch& batch = *batch_;
   const int slot = batch.size++;
   batch.origin_x[slot] = static_cast<float>(a.x);

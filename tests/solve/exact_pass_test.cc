@@ -105,6 +105,16 @@ TEST(ExactPass, TakesPointLightsByTheirSolidAngle) {
   }
 }
 
+TEST(ExactPass, LetsALightOnAWallShineIntoTheRoom) {
+  const SharedPatches patches =
+      Share(SceneMaker().Box({0, 0, 0}, {2, 2, 2}, true, {{}}).Light({1, 0, 1}, {1, 1, 1}).Make());
+  SolverRun run(patches, Exact(100000));
+  ASSERT_TRUE(run.ToTheEnd().ok());
+  const Snapshot snapshot = run.solver.MakeSnapshot();
+  // Half of 4 pi I, less what leaves at the flattest angles and rounds into the wall.
+  EXPECT_NEAR(snapshot.solution->ledger.absorbed.g, 2 * M_PI, 0.02 * 2 * M_PI);
+}
+
 TEST(ExactPass, RefusesMorePatchesThanItsLimit) {
   ShootOptions options;
   options.method = Method::kExact;
