@@ -22,8 +22,8 @@ std::array<float, 4> Shift(const Link& link, uint64_t seed, uint32_t pass, Rando
 }
 
 // Control and spread of a link from its pilot's samples.
-void Guess(const std::vector<Segments::Segment>& segments, const std::vector<bool>& visible,
-           bool near, double whole, Link& link) {
+void SetGuess(const std::vector<Segments::Segment>& segments, const std::vector<bool>& visible,
+              bool near, double whole, Link& link) {
   double seen = 0, all = 0;
   for (size_t k = 0; k < segments.size(); ++k) {
     all += segments[k].weight;
@@ -101,7 +101,7 @@ void Exchange::RunPilot() {
       tracer.Add(segments[k].from, source.from_normal(), segments[k].to, source.to_normal());
     }
     tracer.Land([&](int k, bool is_visible) { visible[k] = is_visible; });
-    lambert::Guess(segments, visible, source.near(), Entry(link, unoccluded_), link);
+    SetGuess(segments, visible, source.near(), Entry(link, unoccluded_), link);
   }
 }
 

@@ -22,7 +22,7 @@ namespace lambert {
 namespace {
 
 // Changes whenever the same unit would give other bytes.
-constexpr char kCodeVersion[] = "shoot-2";
+constexpr char kCodeVersion[] = "shoot-3";
 
 class EmbreeShooter : public Shooter {
  public:
