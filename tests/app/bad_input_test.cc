@@ -27,7 +27,7 @@ TEST_F(BadInput, UsageErrorsEndWith2AndNameTheChoices) {
   EXPECT_TRUE(Says(Fail(2, {}), "bake, plan, submit"));
   EXPECT_TRUE(Says(Fail(2, {"backe", "room.glb"}), "did you mean lambert bake"));
   EXPECT_TRUE(
-      Says(Fail(2, {"bake", "room.glb", "-o", "out", "--method", "x"}), "auto, pmcr, phs, exact"));
+      Says(Fail(2, {"bake", "room.glb", "-o", "out", "--method", "x"}), "importance, exact"));
   EXPECT_TRUE(Says(Fail(2, {"bake", "room.glb", "-o", "out", "--maxerror", "1"}), "--max-error"));
   EXPECT_TRUE(Says(Fail(2, {"bake", "room.glb"}), "-o DIR"));
   EXPECT_TRUE(Says(Fail(2, {"jobs"}), "--server HOST:PORT"));
