@@ -21,7 +21,9 @@ namespace {
 constexpr uint64_t kReferenceSeed = 1'000'000;
 
 // What makes a reference: it has to be unbiased on every scene.
-Method ReferenceMethod(const PatchSet& patches) { return Method::kPmcr; }
+Method ReferenceMethod(const PatchSet& patches) {
+  return patches.size() <= kMaxExactPatches ? Method::kExact : Method::kPmcr;
+}
 
 bool IsInterrupted(const absl::Status& status) {
   const auto detail = GetErrorDetail(status);

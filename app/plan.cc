@@ -7,6 +7,7 @@
 #include "app/service.h"
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
+#include "radiosity/shoot/importance.h"
 #include "radiosity/solve/plan.h"
 
 namespace lambert::app {
@@ -120,6 +121,9 @@ absl::StatusOr<client::PlannedScene> MakePlanned(const SceneBundle& bundle, cons
   if (!patches.ok()) return patches.status();
   if (absl::Status status = CheckReference(*patches, options); !status.ok()) return status;
   if (!here) return PlanThere(bundle, options, interrupt);
+  if (absl::Status status = ValidateFor(*patches, options.solve.shoot); !status.ok()) {
+    return status;
+  }
   return client::PlannedScene{MakePlan(*patches, options.solve), patches->warnings};
 }
 

@@ -15,6 +15,9 @@ enum class RandomPurpose : uint32_t {
   kPyramidOffset = 1,  // start of the systematic rounding over pyramids
   kPatchOffset = 2,    // start of the systematic rounding over patches
   kScramble = 3,       // of a visit's Sobol sequence
+  kPair = 4,           // points of two patches that may see each other (exact)
+  kPilot = 5,          // the same, for a first look
+  kClosure = 6,        // rays that look for a way out of the scene (exact)
   kRetry = 8,          // + k: the k-th retry of a rejected direction
 };
 

@@ -62,6 +62,12 @@ absl::StatusOr<std::vector<uint8_t>> RegionPatches(const PatchSet& patches,
   return inside;
 }
 
+absl::Status ValidateFor(const PatchSet& patches, const ShootOptions& options) {
+  if (absl::Status status = options.ValidateFor(patches.size()); !status.ok()) return status;
+  if (options.method != Method::kImportance) return absl::OkStatus();
+  return RegionPatches(patches, options.region).status();
+}
+
 std::vector<double> RegionImportance(const PatchSet& patches, const RayScene& scene,
                                      const Emitters& emitters,
                                      const std::vector<uint8_t>& in_region) {

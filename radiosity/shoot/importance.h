@@ -18,6 +18,10 @@ namespace lambert {
 absl::StatusOr<std::vector<uint8_t>> RegionPatches(const PatchSet& patches,
                                                    const std::vector<std::string>& region);
 
+// FIELD_INVALID where options that are valid do not fit this scene: too many patches for the
+// method, or a region that it does not have.
+absl::Status ValidateFor(const PatchSet& patches, const ShootOptions& options);
+
 // W of each patch: the solution of the dual system  W_j = V_j + rho_j sum_k F_jk W_k  with V = 1 in
 // the region, by shooting about 200,000 rays: a function of the patch set and the region alone.
 std::vector<double> RegionImportance(const PatchSet& patches, const RayScene& scene,

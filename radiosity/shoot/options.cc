@@ -19,7 +19,8 @@ constexpr MethodEntry kMethods[] = {{Method::kAuto, "auto"},
                                     {Method::kPhs, "phs"},
                                     {Method::kPhsAlpha, "phs-alpha"},
                                     {Method::kPhsAdaptive, "phs-adaptive"},
-                                    {Method::kImportance, "importance"}};
+                                    {Method::kImportance, "importance"},
+                                    {Method::kExact, "exact"}};
 
 constexpr int kMaxPyramids = 65536;  // densities of a patch: 256 KiB
 
@@ -101,7 +102,8 @@ std::vector<Method> AllMethods() {
 }
 
 bool UsesPyramids(Method method) {
-  return method != Method::kAuto && method != Method::kMcr && method != Method::kPmcr;
+  return method != Method::kAuto && method != Method::kMcr && method != Method::kPmcr &&
+         method != Method::kExact;
 }
 
 int PyramidOptions::CellCount() const {
@@ -127,6 +129,15 @@ absl::Status ShootOptions::Validate() const {
                       "use --phs-sampling projected");
   }
   return absl::OkStatus();
+}
+
+absl::Status ShootOptions::ValidateFor(int64_t patches) const {
+  if (absl::Status status = Validate(); !status.ok()) return status;
+  if (method != Method::kExact || patches <= kMaxExactPatches) return absl::OkStatus();
+  return FieldError("method",
+                    "exact takes at most " + std::to_string(kMaxExactPatches) +
+                        " patches and the scene has " + std::to_string(patches),
+                    "use a larger --max-edge or another method");
 }
 
 }  // namespace lambert

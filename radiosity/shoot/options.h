@@ -20,6 +20,7 @@ enum class Method : uint8_t {
   kPhsAlpha = 6,     // phs that counts the patches that were hit (JPS00, 3.3)
   kPhsAdaptive = 7,  // phs whose pyramids are split where many patches are (JPS00, 6)
   kImportance = 9,   // directional importance of a region (NNB96)
+  kExact = 10,       // closed-form form factors and a linear system (docs/exact.md)
 };
 
 // "auto", "pmcr", "phs", ... Parsing fails with FIELD_INVALID naming the choices.
@@ -27,7 +28,7 @@ const char* MethodName(Method method);
 absl::StatusOr<Method> ParseMethod(const std::string& name);
 // All but auto, in the order in which they are told about.
 std::vector<Method> AllMethods();
-// True where rays are divided over parts of the hemisphere: all but auto, mcr and pmcr.
+// True where rays are divided over parts of the hemisphere: all but auto, mcr, pmcr and exact.
 bool UsesPyramids(Method method);
 
 // How a ray's direction is drawn inside its pyramid.
@@ -80,6 +81,9 @@ struct PyramidOptions {
   bool operator==(const PyramidOptions&) const = default;
 };
 
+// Of `exact`, whose memory and time grow with their square: 5,000 take about half a gigabyte.
+inline constexpr int64_t kMaxExactPatches = 5000;
+
 struct ShootOptions {
   Method method = Method::kPmcr;
   PyramidOptions pyramids;
@@ -88,6 +92,8 @@ struct ShootOptions {
   std::vector<std::string> region;  // importance: nodes by name or glTF index
   bool operator==(const ShootOptions&) const = default;
   absl::Status Validate() const;  // FIELD_INVALID naming the field that is out of range
+  // The same for a scene of so many patches: FIELD_INVALID where they are too many for the method.
+  absl::Status ValidateFor(int64_t patches) const;
 };
 
 }  // namespace lambert

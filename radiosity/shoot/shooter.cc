@@ -1,9 +1,6 @@
 #include "radiosity/shoot/shooter.h"
 
 #include <gnu/libc-version.h>
-#include <pmmintrin.h>
-#include <time.h>
-#include <xmmintrin.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,35 +11,18 @@
 #include "radiosity/shoot/arrivals.h"
 #include "radiosity/shoot/directions.h"
 #include "radiosity/shoot/emitter.h"
+#include "radiosity/shoot/exact_shooter.h"
 #include "radiosity/shoot/flight.h"
 #include "radiosity/shoot/importance.h"
 #include "radiosity/shoot/probe.h"
+#include "radiosity/shoot/this_thread.h"
 #include "radiosity/trace/ray_scene.h"
 
 namespace lambert {
 namespace {
 
 // Changes whenever the same unit would give other bytes.
-constexpr char kCodeVersion[] = "shoot-3";
-
-// Flushes denormals while it lives: they are slow, and different where a thread forgets to.
-class DenormalsFlushed {
- public:
-  DenormalsFlushed() : saved_(_mm_getcsr()) {
-    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-  }
-  ~DenormalsFlushed() { _mm_setcsr(saved_); }
-
- private:
-  unsigned saved_;
-};
-
-double ThreadCpuSeconds() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+constexpr char kCodeVersion[] = "shoot-4";
 
 class EmbreeShooter : public Shooter {
  public:
@@ -262,7 +242,8 @@ std::string UnitVersion() {
 
 absl::StatusOr<std::shared_ptr<const Shooter>> Shooter::Create(
     std::shared_ptr<const PatchSet> patches, const ShootOptions& options) {
-  if (absl::Status status = options.Validate(); !status.ok()) return status;
+  if (absl::Status status = ValidateFor(*patches, options); !status.ok()) return status;
+  if (options.method == Method::kExact) return CreateExactShooter(std::move(patches));
   absl::StatusOr<std::unique_ptr<RayScene>> scene = RayScene::Create(*patches);
   if (!scene.ok()) return scene.status();
   auto shooter = std::make_shared<EmbreeShooter>(std::move(patches), options, *std::move(scene));

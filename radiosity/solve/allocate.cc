@@ -17,9 +17,22 @@ struct Share {
   Rgb flux_lm;
 };
 
-// The power of two of which `total` takes at most 2^kMaxQuantaBits; 0 for no flux.
-double Quantum(double total_lm) {
-  return total_lm > 0 ? std::ldexp(1.0, std::ilogb(total_lm) + 1 - kMaxQuantaBits) : 0.0;
+// Of a finished solution: leaves two bits to its rounding and to the sign.
+constexpr int kSolvedBits = 61;
+constexpr double kLeastLoss =
+    0x1p-23;  // 1 - rho, under which more could arrive than is planned for
+
+// The power of two of which `total` takes at most 2^bits; 0 for no flux.
+double Quantum(double total_lm, int bits = kMaxQuantaBits) {
+  return total_lm > 0 ? std::ldexp(1.0, std::ilogb(total_lm) + 1 - bits) : 0.0;
+}
+
+Quanta InQuanta(const Rgb& flux_lm, const Rgb& quantum_lm) {
+  Quanta quanta{};
+  for (int c = 0; c < 3; ++c) {
+    if (quantum_lm[c] > 0) quanta[c] = std::llround(flux_lm[c] / quantum_lm[c]);
+  }
+  return quanta;
 }
 
 }  // namespace
@@ -48,13 +61,32 @@ StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray
   plan.quantum_lm = {Quantum(total.r), Quantum(total.g), Quantum(total.b)};
   plan.visits.reserve(shares.size());
   for (const Share& share : shares) {
-    Visit visit{share.emitter, share.rays, 0, share.rays, {}};
-    for (int c = 0; c < 3; ++c) {
-      const double quantum = plan.quantum_lm[c];
-      if (quantum > 0) visit.quanta[c] = std::llround(share.flux_lm[c] / quantum);
-    }
     plan.rays += share.rays;
-    plan.visits.push_back(visit);
+    plan.visits.push_back(
+        {share.emitter, share.rays, 0, share.rays, InQuanta(share.flux_lm, plan.quantum_lm)});
+  }
+  return plan;
+}
+
+StepPlan PlanWholePass(const std::vector<UnsentFlux>& unsent, const PatchSet& patches,
+                       int64_t rays) {
+  StepPlan plan;
+  if (unsent.empty()) return plan;
+  Rgb total, most;
+  for (const UnsentFlux& emitter : unsent) total = total + emitter.flux_lm;
+  for (const Rgb& rho : patches.reflectance) {
+    for (int c = 0; c < 3; ++c) most[c] = std::max(most[c], rho[c]);
+  }
+  for (int c = 0; c < 3; ++c) {
+    plan.quantum_lm[c] = Quantum(total[c] / std::max(1 - most[c], kLeastLoss), kSolvedBits);
+  }
+  const auto emitters = static_cast<int64_t>(unsent.size());
+  plan.rays = std::min(std::max(rays, emitters + patches.size()),
+                       emitters * static_cast<int64_t>(kMaxVisitRays));
+  for (int64_t k = 0; k < emitters; ++k) {
+    const auto share = static_cast<uint32_t>(plan.rays / emitters + (k < plan.rays % emitters));
+    plan.visits.push_back(
+        {unsent[k].emitter, share, 0, share, InQuanta(unsent[k].flux_lm, plan.quantum_lm)});
   }
   return plan;
 }

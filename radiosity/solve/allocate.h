@@ -33,6 +33,14 @@ struct StepPlan {
 StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray_lm, double offset,
                       const std::vector<double>& weights = {});
 
+// The whole emission in one step, for a method that returns a finished solution: each emitter has
+// one visit, and `rays`, or as many as there are emitters and patches where that is more, are dealt
+// over them evenly. What arrives over all bounces, at most 1 / (1 - rho) times the emission with
+// rho the greatest reflectance of a channel, is under 2^61 quanta; where rho is over 1 - 2^-23,
+// that stands for it. Requires: finite flux >= 0, rays > 0.
+StepPlan PlanWholePass(const std::vector<UnsentFlux>& unsent, const PatchSet& patches,
+                       int64_t rays);
+
 // Cuts the visits into units of about `unit_rays` rays; long visits are divided. The results of the
 // units, merged, do not depend on how they were cut. Requires: unit_rays >= 1.
 std::vector<WorkUnit> CutIntoUnits(const StepPlan& plan, uint64_t seed, uint32_t pass,

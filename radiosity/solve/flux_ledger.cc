@@ -30,6 +30,16 @@ void FluxLedger::AddUnsent(int32_t emitter, Rgb flux_lm) {
   unsent_sum_ = unsent_sum_ + flux_lm;
 }
 
+Rgb FluxLedger::Arrive(const Deposit& deposit, const Rgb& quantum_lm) {
+  const PatchIndex i = deposit.patch;
+  hits_[i] += deposit.hits;
+  const Rgb arrived{static_cast<double>(deposit.r) * quantum_lm.r,
+                    static_cast<double>(deposit.g) * quantum_lm.g,
+                    static_cast<double>(deposit.b) * quantum_lm.b};
+  arrived_lm_[i] = arrived_lm_[i] + arrived;
+  return arrived;
+}
+
 void FluxLedger::Book(const StepPlan& plan, const UnitResult& result) {
   const Rgb quantum = plan.quantum_lm;
   const Rgb unsent_before = unsent_sum_;
@@ -37,15 +47,10 @@ void FluxLedger::Book(const StepPlan& plan, const UnitResult& result) {
   unsent_sum_ = {};
   Rgb absorbed;
   for (const Deposit& deposit : result.deposits) {
-    const PatchIndex i = deposit.patch;
-    hits_[i] += deposit.hits;
-    const Rgb arrived{static_cast<double>(deposit.r) * quantum.r,
-                      static_cast<double>(deposit.g) * quantum.g,
-                      static_cast<double>(deposit.b) * quantum.b};
-    arrived_lm_[i] = arrived_lm_[i] + arrived;
-    const Rgb reflected = patches_.reflectance[i] * arrived;
+    const Rgb arrived = Arrive(deposit, quantum);
+    const Rgb reflected = patches_.reflectance[deposit.patch] * arrived;
     absorbed = absorbed + (arrived - reflected);
-    AddUnsent(i, reflected);
+    AddUnsent(deposit.patch, reflected);
   }
   for (int c = 0; c < 3; ++c) {
     absorbed_[c].Add(absorbed[c]);
@@ -53,6 +58,24 @@ void FluxLedger::Book(const StepPlan& plan, const UnitResult& result) {
     // What roulette and rounding shot too little, positive, or too much, negative.
     residual_[c].Add(unsent_before[c]);
     residual_[c].Add(-static_cast<double>(result.shot[c]) * quantum[c]);
+  }
+}
+
+void FluxLedger::BookSolution(const StepPlan& plan, const UnitResult& result) {
+  const Rgb emitted = unsent_sum_;
+  unsent_.clear();
+  unsent_sum_ = {};
+  CompensatedSum absorbed[3];
+  for (const Deposit& deposit : result.deposits) {
+    const Rgb arrived = Arrive(deposit, plan.quantum_lm);
+    const Rgb kept = arrived - patches_.reflectance[deposit.patch] * arrived;
+    for (int c = 0; c < 3; ++c) absorbed[c].Add(kept[c]);
+  }
+  for (int c = 0; c < 3; ++c) {
+    const double escaped = static_cast<double>(result.escaped[c]) * plan.quantum_lm[c];
+    absorbed_[c].Add(absorbed[c].value());
+    escaped_[c].Add(escaped);
+    residual_[c].Add(emitted[c] - absorbed[c].value() - escaped);  // of rounding
   }
 }
 

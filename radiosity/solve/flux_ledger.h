@@ -36,6 +36,10 @@ class FluxLedger {
   // what arrived and is reflected becomes unsent.
   void Book(const StepPlan& plan, const UnitResult& result);
 
+  // Books a finished solution: what was unsent was emitted, `result` holds all that arrived over
+  // all bounces, and nothing is left unsent.
+  void BookSolution(const StepPlan& plan, const UnitResult& result);
+
   // Flux arrived so far [lm], by patch.
   const std::vector<Rgb>& arrived_lm() const { return arrived_lm_; }
   const std::vector<int64_t>& hits() const { return hits_; }
@@ -43,6 +47,8 @@ class FluxLedger {
 
  private:
   void AddUnsent(int32_t emitter, Rgb flux_lm);
+  // Books what arrived, and returns it [lm].
+  Rgb Arrive(const Deposit& deposit, const Rgb& quantum_lm);
 
   const PatchSet& patches_;
   Rgb emitted_;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int64_t kMinFirstPassRays = 1 << 13;
 constexpr int64_t kMaxFirstPassRays = 1 << 20;
+constexpr int64_t kMaxExactPassRays = 1 << 25;
 constexpr int64_t kPassesInBudget = 4;  // the first pass takes at most this share of --max-rays
 // Mean area times mean inverse area, 1 for equal patches. Over it, small patches stand among large
 // ones and pyramids send them more rays; under it they only add noise (docs/methods.md).
@@ -41,6 +42,10 @@ int64_t WorkerBytes(const PatchSet& patches, const ShootOptions& shoot) {
   // Patch set 200, tracer 60 + 119 at the peak of its build, frames 36, one unit's deposits 32.
   int64_t bytes = patches.size() * (200 + 179 + 36 + 32);
   if (UsesPyramids(shoot.method)) bytes += patches.size() * 200;  // clusters or targets
+  if (shoot.method == Method::kExact) {
+    // Two halves of a matrix of doubles, and a link and its weight for up to half of all pairs.
+    bytes += (2 * 4 + 12) * int64_t{patches.size()} * patches.size();
+  }
   return bytes;
 }
 
@@ -66,6 +71,19 @@ PlanItem DensityItem(const PatchSet& patches, const ShootOptions& shoot) {
           "keeps the densities under a tenth of the time of tracing"};
 }
 
+PlanItem ClearPairsItem() {
+  return {"rays between patches in plain sight", true,
+          "where nothing reaches into the hull of two patches their form factor is a closed form",
+          "every ray of a convex scene"};
+}
+
+// Large enough that sampling takes about as long as the linear system.
+int64_t FirstPassRays(const PatchSet& patches, Method method) {
+  const int64_t n = patches.size();
+  return std::clamp<int64_t>(method == Method::kExact ? n * n : 2 * n, kMinFirstPassRays,
+                             method == Method::kExact ? kMaxExactPassRays : kMaxFirstPassRays);
+}
+
 }  // namespace
 
 Plan MakePlan(const PatchSet& patches, const SolveOptions& options) {
@@ -80,8 +98,7 @@ Plan MakePlan(const PatchSet& patches, const SolveOptions& options) {
   }
   plan.patches = patches.size();
   plan.worker_bytes = WorkerBytes(patches, solve.shoot);
-  plan.first_pass_rays =
-      std::clamp<int64_t>(2 * plan.patches, kMinFirstPassRays, kMaxFirstPassRays);
+  plan.first_pass_rays = FirstPassRays(patches, solve.shoot.method);
   if (solve.max_rays > 0) {
     const int64_t share = solve.max_rays / kPassesInBudget;
     // mcr shares its budget out evenly.
@@ -93,6 +110,7 @@ Plan MakePlan(const PatchSet& patches, const SolveOptions& options) {
   if (UsesPyramids(solve.shoot.method)) {
     plan.items.push_back(DensityItem(patches, solve.shoot));
   }
+  if (solve.shoot.method == Method::kExact) plan.items.push_back(ClearPairsItem());
   if (const int64_t black = CountBlack(patches); black > 0) {
     plan.items.push_back(
         {"rays from black patches", true, std::to_string(black) + " patches reflect nothing",

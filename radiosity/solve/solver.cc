@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "radiosity/core/bytes.h"
 #include "radiosity/core/error.h"
 #include "radiosity/core/philox.h"
 #include "radiosity/shoot/importance.h"
 #include "radiosity/solve/allocate.h"
+#include "radiosity/solve/checkpoint.h"
 #include "radiosity/solve/flux_ledger.h"
 #include "radiosity/solve/plan.h"
 #include "radiosity/solve/replicates.h"
@@ -16,7 +16,6 @@
 namespace lambert {
 namespace {
 
-constexpr uint32_t kCheckpointMagic = 0x3253534C;  // "LSS2"
 // Passes grow: few are needed for any budget, and yet enough for a standard error.
 constexpr double kPassGrowth = 1.5;
 constexpr int32_t kFirstPasses = 2;        // one pass has no standard error
@@ -24,17 +23,6 @@ constexpr int32_t kMinPassesForError = 3;  // before an estimated error is belie
 constexpr double kBudgetMargin = 0.01;  // of the rays left: a pass's rays are known to about this
 // Steps without any absorption or escape after which the flux is taken to have no way out.
 constexpr int64_t kStepsWithoutLoss = 10000;
-
-struct CheckpointHeader {
-  uint32_t magic = kCheckpointMagic;
-  int32_t next_pass = 0;
-  int32_t last_step = 0;
-  StopReason stop = StopReason::kNone;
-  uint8_t reserved[3] = {0, 0, 0};
-  int64_t rays = 0, version = 0, pass_rays = 0;
-  double cpu_seconds = 0, seconds = 0, unsent_fraction = 1, rays_per_first_ray = 1;
-  uint64_t replicates_bytes = 0;  // follow; the sightings come after
-};
 
 // Rays of a whole pass for each ray of its first step, before any pass has told: 1 / (1 - rho) with
 // the area's mean reflectance, as in a closed scene.
@@ -97,6 +85,7 @@ struct Solver::State {
   Progress CurrentProgress() const;
   absl::Status RunOnePass(StepExecutor& executor,
                           const std::function<void(const Progress&)>& on_step);
+  StepPlan PlanStep(double flux_per_ray, const FluxLedger& ledger) const;
   // One step; false where the pass is over.
   absl::StatusOr<bool> RunStep(StepExecutor& executor, double flux_per_ray, FluxLedger& ledger);
   absl::Status CheckAbsorption(const StepPlan& plan, const UnitResult& result,
@@ -113,7 +102,7 @@ struct Solver::State {
   const std::function<double()> now;
   Replicates replicates;
   double started;
-  CheckpointHeader at;                                       // where the run stands
+  RunState at;                                               // where the run stands
   double estimated_rms_area = -1, estimated_rms_patch = -1;  // of the replicates
   int32_t step = 0;
   int64_t steps_without_loss = 0;
@@ -159,8 +148,7 @@ absl::Status Solver::State::CheckAbsorption(const StepPlan& plan, const UnitResu
                     "give some material a reflectance under 1"});
 }
 
-absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_per_ray,
-                                            FluxLedger& ledger) {
+StepPlan Solver::State::PlanStep(double flux_per_ray, const FluxLedger& ledger) const {
   const RandomStream stream{options.seed, 0, static_cast<uint32_t>(step),
                             static_cast<uint32_t>(at.next_pass)};
   const double offset = RandomNumbers(stream, 0, RandomPurpose::kPatchOffset)[0];
@@ -171,15 +159,24 @@ absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_
                                     options.shoot.pyramids.count_unseen);
     }
   }
+  return plan;
+}
+
+absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_per_ray,
+                                            FluxLedger& ledger) {
+  const bool whole = options.shoot.method == Method::kExact;  // a unit returns a solution
+  const StepPlan plan = whole ? PlanWholePass(ledger.unsent(), *patches, at.pass_rays)
+                              : PlanStep(flux_per_ray, ledger);
+  const int64_t unit_rays = whole ? plan.rays : UnitRays(plan.rays, patches->size());
   UnitResult result;
   if (plan.rays > 0) {
-    absl::StatusOr<UnitResult> ran = executor.RunStep(
-        CutIntoUnits(plan, options.seed, static_cast<uint32_t>(at.next_pass),
-                     static_cast<uint32_t>(step), UnitRays(plan.rays, patches->size())));
+    absl::StatusOr<UnitResult> ran =
+        executor.RunStep(CutIntoUnits(plan, options.seed, static_cast<uint32_t>(at.next_pass),
+                                      static_cast<uint32_t>(step), unit_rays));
     if (!ran.ok()) return ran.status();
     result = *std::move(ran);
   }
-  ledger.Book(plan, result);
+  whole ? ledger.BookSolution(plan, result) : ledger.Book(plan, result);
   sightings.Add(result.sightings);
   at.rays += result.rays;
   at.cpu_seconds += result.cpu_seconds;
@@ -317,35 +314,15 @@ Snapshot Solver::MakeSnapshot() const {
 }
 
 std::string Solver::EncodeCheckpoint() const {
-  ByteWriter writer;
-  CheckpointHeader header = state_->at;
-  header.seconds = state_->Seconds();
-  const std::string replicates = state_->replicates.Encode();
-  const std::string sightings = state_->sightings.Encode();
-  header.replicates_bytes = replicates.size();
-  writer.Put(header);
-  writer.PutArray(replicates.data(), replicates.size());
-  writer.PutArray(sightings.data(), sightings.size());
-  return writer.Take();
+  RunState at = state_->at;
+  at.seconds = state_->Seconds();
+  return lambert::EncodeCheckpoint(at, state_->replicates, state_->sightings);
 }
 
 absl::Status Solver::Restore(const std::string& checkpoint) {
-  ByteReader reader(checkpoint);
-  CheckpointHeader header;
-  if (!reader.Get(&header) || header.magic != kCheckpointMagic ||
-      header.replicates_bytes > reader.remaining()) {
-    return MakeError(absl::StatusCode::kDataLoss,
-                     {"CHECKPOINT_INVALID", "checkpoint", "the bytes are not a checkpoint",
-                      "start the job again"});
-  }
-  SightingTable sightings;
   absl::Status status =
-      sightings.Restore(checkpoint.substr(sizeof(header) + header.replicates_bytes));
+      RestoreCheckpoint(checkpoint, state_->at, state_->replicates, state_->sightings);
   if (!status.ok()) return status;
-  status = state_->replicates.Restore(checkpoint.substr(sizeof(header), header.replicates_bytes));
-  if (!status.ok()) return status;
-  state_->at = header;
-  state_->sightings = std::move(sightings);
   state_->EstimateError();
   state_->started = state_->now();
   return absl::OkStatus();

@@ -8,6 +8,7 @@
 namespace lambert {
 
 inline constexpr PatchIndex kEscaped = -1;  // RayBatch::hit of a ray that met no side of a patch
+inline constexpr PatchIndex kBlocked = -2;  // RayBatch::hit of a segment that meets a triangle
 
 struct RayBatch {
   static constexpr int kCapacity = 1024;        // a multiple of the packet width; fits the L2 cache

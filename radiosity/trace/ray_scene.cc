@@ -55,6 +55,24 @@ RTCRayHit MakeRay(const float origin[3], const float direction[3]) {
   return ray;
 }
 
+// Rays first .. first + 7 of the batch, up to `far` times their direction.
+void FillPacket(const RayBatch& batch, int first, float far, RTCRay8& ray, int* valid) {
+  std::memcpy(ray.org_x, batch.origin_x + first, sizeof(ray.org_x));
+  std::memcpy(ray.org_y, batch.origin_y + first, sizeof(ray.org_y));
+  std::memcpy(ray.org_z, batch.origin_z + first, sizeof(ray.org_z));
+  std::memcpy(ray.dir_x, batch.direction_x + first, sizeof(ray.dir_x));
+  std::memcpy(ray.dir_y, batch.direction_y + first, sizeof(ray.dir_y));
+  std::memcpy(ray.dir_z, batch.direction_z + first, sizeof(ray.dir_z));
+  for (int l = 0; l < kPacketWidth; ++l) {
+    valid[l] = first + l < batch.size ? -1 : 0;
+    ray.tnear[l] = 0;
+    ray.tfar[l] = far;
+    ray.time[l] = 0;
+    ray.mask[l] = ~0u;
+    ray.flags[l] = 0;
+  }
+}
+
 bool HitsBack(const RTCRayHit& r) {
   return r.hit.Ng_x * r.ray.dir_x + r.hit.Ng_y * r.ray.dir_y + r.hit.Ng_z * r.ray.dir_z > 0;
 }
@@ -86,6 +104,7 @@ struct RayScene::Impl {
   PatchIndex SideHit(const RTCRayHit& ray) const;
   RTCRayHit CastCulled(const float origin[3], const float direction[3]) const;
   void TracePacket(RayBatch& batch, int first) const;
+  void OccludePacket(RayBatch& batch, int first) const;
 };
 
 void RayScene::Impl::Place(const PatchSet& patches) {
@@ -155,19 +174,8 @@ RTCRayHit RayScene::Impl::CastCulled(const float origin[3], const float directio
 void RayScene::Impl::TracePacket(RayBatch& batch, int first) const {
   RTCRayHit8 packet;
   alignas(32) int valid[kPacketWidth];
-  std::memcpy(packet.ray.org_x, batch.origin_x + first, sizeof(packet.ray.org_x));
-  std::memcpy(packet.ray.org_y, batch.origin_y + first, sizeof(packet.ray.org_y));
-  std::memcpy(packet.ray.org_z, batch.origin_z + first, sizeof(packet.ray.org_z));
-  std::memcpy(packet.ray.dir_x, batch.direction_x + first, sizeof(packet.ray.dir_x));
-  std::memcpy(packet.ray.dir_y, batch.direction_y + first, sizeof(packet.ray.dir_y));
-  std::memcpy(packet.ray.dir_z, batch.direction_z + first, sizeof(packet.ray.dir_z));
+  FillPacket(batch, first, kInfinity, packet.ray, valid);
   for (int l = 0; l < kPacketWidth; ++l) {
-    valid[l] = first + l < batch.size ? -1 : 0;
-    packet.ray.tnear[l] = 0;
-    packet.ray.tfar[l] = kInfinity;
-    packet.ray.time[l] = 0;
-    packet.ray.mask[l] = ~0u;
-    packet.ray.flags[l] = 0;
     packet.hit.geomID[l] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][l] = RTC_INVALID_GEOMETRY_ID;
   }
@@ -194,6 +202,18 @@ void RayScene::Impl::TracePacket(RayBatch& batch, int first) const {
       }
     }
     batch.hit[first + l] = hit;
+  }
+}
+
+void RayScene::Impl::OccludePacket(RayBatch& batch, int first) const {
+  RTCRay8 packet;
+  alignas(32) int valid[kPacketWidth];
+  FillPacket(batch, first, 1, packet, valid);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded8(valid, scene, &context, &packet);
+  for (int l = 0; l < kPacketWidth && valid[l] != 0; ++l) {
+    batch.hit[first + l] = packet.tfar[l] < 0 ? kBlocked : kEscaped;  // Embree's answer is -inf
   }
 }
 
@@ -233,6 +253,10 @@ RayScene::~RayScene() = default;
 
 void RayScene::Trace(RayBatch& batch) const {
   for (int first = 0; first < batch.size; first += kPacketWidth) impl_->TracePacket(batch, first);
+}
+
+void RayScene::Occlude(RayBatch& batch) const {
+  for (int first = 0; first < batch.size; first += kPacketWidth) impl_->OccludePacket(batch, first);
 }
 
 PictureHit RayScene::Cast(Vec3 origin, Vec3 direction) const {

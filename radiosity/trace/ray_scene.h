@@ -50,6 +50,11 @@ class RayScene {
   // Nearest hit of every ray of the batch; depends on each ray alone, not on its neighbours.
   void Trace(RayBatch& batch) const;
 
+  // Whether anything stands on the segments from the batch's origins to origin + direction:
+  // kBlocked or kEscaped in `hit`. Fronts and backs block alike. Ends that lie on a patch are
+  // lifted off it: the first by kOriginOffset, the second by kTieDistance.
+  void Occlude(RayBatch& batch) const;
+
   // Nearest side of a patch that a ray sees. `origin` in metres relative to the patch set's origin.
   PictureHit Cast(Vec3 origin, Vec3 direction) const;
 

@@ -6,6 +6,7 @@
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
 #include "radiosity/patch/build_patches.h"
+#include "radiosity/shoot/importance.h"
 #include "radiosity/shoot/options_codec.h"
 #include "radiosity/solve/plan.h"
 #include "server/base/status_proto.h"
@@ -43,6 +44,9 @@ absl::Status JobRunner::Solve(Job& job) {
   if (!options.ok()) return options.status();
   absl::StatusOr<std::shared_ptr<const PatchSet>> patches = PreparePatches(job, options->patch);
   if (!patches.ok()) return patches.status();
+  if (absl::Status status = ValidateFor(**patches, options->solve.shoot); !status.ok()) {
+    return status;
+  }
   const Plan plan = MakePlan(**patches, options->solve);
   job.Update([&](v1::SolveJob& record) {
     *record.mutable_plan() = EncodePlan(plan, record.spec());

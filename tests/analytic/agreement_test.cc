@@ -1,4 +1,4 @@
-// PHS, PMCR and a plain gather must agree patch by patch: mean z^2 near 1.
+// PHS, PMCR, the exact method and a plain gather must agree patch by patch: mean z^2 near 1.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,6 +54,12 @@ void ExpectAgreement(const ByPatch& a, const ByPatch& b, const char* what) {
   EXPECT_NEAR(z2 / count, 1.1, 0.2) << what << ", " << count << " patches";
 }
 
+double Power(const PatchSet& patches, const ByPatch& solution) {
+  double sum = 0;
+  for (PatchIndex i = 0; i < patches.size(); ++i) sum += patches.area_m2[i] * solution.mean[i];
+  return sum;
+}
+
 void ExpectAllAgree(const PatchSet& patches, int walks, int64_t rays) {
   const ByPatch pmcr =
       Summarize(patches, SolveSeeds(patches, WithRays(Method::kPmcr, rays), kSeeds));
@@ -68,6 +74,14 @@ void ExpectAllAgree(const PatchSet& patches, int walks, int64_t rays) {
   Gathered walked = GatherByWalks(patches, walks, 12345);
   const ByPatch gather{std::move(walked.radiosity), std::move(walked.std_error),
                        std::vector<int64_t>(patches.size(), kMinHits)};
+  // Far more precise than the others: their differences are the others' errors.
+  ByPatch exact =
+      Summarize(patches, SolveSeeds(patches, WithRays(Method::kExact, 4 * rays), kSeeds, 300));
+  exact.hits = gather.hits;
+  ExpectAgreement(pmcr, exact, "pmcr and exact");
+  ExpectAgreement(phs, exact, "phs and exact");
+  ExpectAgreement(gather, exact, "gather and exact");
+  EXPECT_NEAR(Power(patches, pmcr) / Power(patches, exact), 1, 0.002);
   ExpectAgreement(pmcr, phs, "pmcr and phs");
   ExpectAgreement(pmcr, phs12, "pmcr and phs with 12 pyramids, weighted rays");
   ExpectAgreement(pmcr, gather, "pmcr and gather");

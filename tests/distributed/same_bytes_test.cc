@@ -15,29 +15,32 @@ namespace {
 constexpr int kSquares = 4;           // 512 patches
 constexpr int64_t kRays = 3'000'000;  // about a second of one core
 
+std::string SolveSerially(Method method) {
+  SolveOptions options;
+  options.shoot.method = method;
+  options.max_rays = kRays;
+  auto patches = std::make_shared<const PatchSet>(
+      *BuildPatches(*LoadGltf({"room.glb", ToGlb(MakeCornell(kSquares)), {}}), {}));
+  const Plan plan = MakePlan(*patches, options);
+  SerialExecutor executor(*Shooter::Create(patches, plan.options.shoot));
+  Solver solver(patches, plan.options, [] { return 0.0; });
+  while (solver.stop_reason() == StopReason::kNone) {
+    if (!solver.RunPass(executor, nullptr).ok()) break;
+  }
+  return EncodeSolution(*solver.MakeSnapshot().solution);
+}
+
 const std::string& ExpectedBytes() {
-  static const std::string bytes = [] {
-    SolveOptions options;
-    options.shoot.method = Method::kAuto;
-    options.max_rays = kRays;
-    auto patches = std::make_shared<const PatchSet>(
-        *BuildPatches(*LoadGltf({"room.glb", ToGlb(MakeCornell(kSquares)), {}}), {}));
-    const Plan plan = MakePlan(*patches, options);
-    SerialExecutor executor(*Shooter::Create(patches, plan.options.shoot));
-    Solver solver(patches, plan.options, [] { return 0.0; });
-    while (solver.stop_reason() == StopReason::kNone) {
-      if (!solver.RunPass(executor, nullptr).ok()) break;
-    }
-    return EncodeSolution(*solver.MakeSnapshot().solution);
-  }();
+  static const std::string bytes = SolveSerially(Method::kAuto);
   return bytes;
 }
 
-void ExpectSameBytes(const ServiceCalls::Watched& watched) {
+void ExpectSameBytes(const ServiceCalls::Watched& watched,
+                     const std::string& expected = ExpectedBytes()) {
   EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
   EXPECT_EQ(watched.ended.state(), v1::SolveJob::STATE_SUCCEEDED)
       << watched.ended.error().message();
-  EXPECT_TRUE(watched.payload == ExpectedBytes());
+  EXPECT_TRUE(watched.payload == expected);
 }
 
 struct Crew {
@@ -67,6 +70,21 @@ TEST(SameBytesLocally, WithTheWholeServiceInThisProcess) {
     calls.Connect(service->channel());
     ExpectSameBytes(calls.Watch(calls.CreateJob(kRays, "", kSquares).name()));
     calls.Connect(nullptr);
+  }
+}
+
+// A unit of the exact method is a whole pass: more workers than units, and none may be missed.
+TEST(SameBytesOfExact, WithAnyNumberOfWorkersAndOneKilled) {
+  const std::string expected = SolveSerially(Method::kExact);
+  for (const int workers : {1, 2, 5}) {
+    Farm farm;
+    for (int i = 0; i < workers; ++i) farm.AddWorker();
+    const v1::SolveJob job = farm.CreateJob(kRays, "", kSquares, "exact");
+    if (workers > 1) {
+      farm.WaitUntilUnderWay(job.name());
+      farm.worker(0).Signal(SIGKILL);
+    }
+    ExpectSameBytes(farm.Watch(job.name()), expected);
   }
 }
 

@@ -79,13 +79,15 @@ class ServiceCalls {
     return scenes()->CreateScene(&context, request, scene);
   }
   // A job on a Cornell box of 32 n^2 patches with a budget of rays.
-  v1::SolveJob CreateJob(int64_t max_rays = 100'000, const std::string& id = "", int n = 2) {
+  v1::SolveJob CreateJob(int64_t max_rays = 100'000, const std::string& id = "", int n = 2,
+                         const std::string& method = "") {
     v1::Scene scene;
     EXPECT_TRUE(CreateScene(ToGlb(MakeCornell(n)), &scene).ok());
     v1::CreateSolveJobRequest request;
     request.set_scene(scene.name());
     request.set_solve_job_id(id);
     request.mutable_spec()->set_max_ray_count(max_rays);
+    request.mutable_spec()->mutable_shoot()->set_method(method);
     v1::SolveJob job;
     grpc::ClientContext context;
     const grpc::Status status = jobs()->CreateSolveJob(&context, request, &job);

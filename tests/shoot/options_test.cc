@@ -100,6 +100,7 @@ TEST(ParseMethod, TurnsEveryNameBackIntoItsMethod) {
 TEST(UsesPyramids, IsTrueWhereRaysAreDivided) {
   EXPECT_FALSE(UsesPyramids(Method::kMcr));
   EXPECT_FALSE(UsesPyramids(Method::kPmcr));
+  EXPECT_FALSE(UsesPyramids(Method::kExact));
   EXPECT_TRUE(UsesPyramids(Method::kHs97));
   EXPECT_TRUE(UsesPyramids(Method::kPhsAdaptive));
 }
