@@ -101,7 +101,8 @@ class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest
     }
     submission_.bytes += request_.data();
     if (static_cast<int64_t>(submission_.bytes.size()) > max_bytes_) {
-      return Finish(ToGrpc(Mismatch()));
+      // Larger than a result can be: counts as an attempt, like any other bad result.
+      return Finish(ToGrpc(Submit()));
     }
     StartRead(&request_);
   }

@@ -64,7 +64,8 @@ absl::Status JobRunner::Solve(Job& job) {
   }
   const v1::Digest digest = job.Get().patch_set_digest();
   TableExecutor executor(parts_.work, {job.id(), digest.sha256(), digest.size_bytes(),
-                                       (*patches)->size(), EncodeShootOptions(plan.options.shoot)});
+                                       (*patches)->size(), EncodeShootOptions(plan.options.shoot),
+                                       plan.options.shoot.method == Method::kPhsAlpha});
   return RunPasses(job, solver, executor);
 }
 

@@ -7,7 +7,9 @@
 namespace lambert::server {
 
 PublishedStep::PublishedStep(WorkSetup setup, int64_t number, std::vector<WorkUnit> grains)
-    : setup_(std::move(setup)), number_(number), grains_(std::move(grains)) {}
+    : setup_(std::move(setup)), number_(number), grains_(std::move(grains)) {
+  for (const WorkUnit& grain : grains_) rays_ += grain.RayCount();
+}
 
 WorkUnit PublishedStep::Unit(int first_grain, int grain_count) const {
   WorkUnit unit = grains_[first_grain];

@@ -17,7 +17,8 @@ struct WorkSetup {
   std::string patch_set_sha256;
   int64_t patch_set_bytes = 0;
   PatchIndex patch_count = 0;
-  std::string shoot_options;  // EncodeShootOptions
+  std::string shoot_options;   // EncodeShootOptions
+  bool has_sightings = false;  // results may tell what every ray has seen
 };
 
 // Thread safe.
@@ -27,6 +28,8 @@ class PublishedStep {
 
   const WorkSetup& setup() const { return setup_; }
   int64_t number() const { return number_; }
+  // Of all units together.
+  int64_t rays() const { return rays_; }
 
   // Some grains as one unit: its result is the sum of theirs. Requires: they are there.
   WorkUnit Unit(int first_grain, int grain_count) const;
@@ -45,6 +48,7 @@ class PublishedStep {
   const WorkSetup setup_;
   const int64_t number_;
   const std::vector<WorkUnit> grains_;
+  int64_t rays_ = 0;  // set once
   absl::Mutex mutex_;
   UnitResult merged_ ABSL_GUARDED_BY(mutex_);
   size_t merged_grains_ ABSL_GUARDED_BY(mutex_) = 0;

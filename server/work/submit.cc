@@ -9,7 +9,7 @@ namespace {
 
 // Above what docs/formats.md gives a unit result.
 constexpr int64_t kMaxResultHeaderBytes = 1024;
-constexpr int64_t kMaxDepositBytes = 64;
+constexpr int64_t kMaxDepositBytes = 64, kMaxSightingBytes = 64;
 
 }  // namespace
 
@@ -24,7 +24,9 @@ int64_t WorkTable::MaxResultBytes(const std::string& job, int64_t step_number) c
   absl::MutexLock lock(&mutex_);
   std::shared_ptr<PublishedStep> step = FindStep(job, step_number);
   if (step == nullptr) return 0;
-  return kMaxResultHeaderBytes + kMaxDepositBytes * step->setup().patch_count;
+  const int64_t sightings = step->setup().has_sightings ? step->rays() : 0;
+  return kMaxResultHeaderBytes + kMaxDepositBytes * step->setup().patch_count +
+         kMaxSightingBytes * sightings;
 }
 
 std::string WorkTable::WorkerOf(const std::string& lease) const {

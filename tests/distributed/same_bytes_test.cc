@@ -2,6 +2,8 @@
 // loop that runs in one thread without a network.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "local/local_service.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/scene/load_gltf.h"
@@ -18,6 +20,7 @@ constexpr int64_t kRays = 3'000'000;  // about a second of one core
 std::string SolveSerially(Method method) {
   SolveOptions options;
   options.shoot.method = method;
+  if (method == Method::kImportance) options.shoot.region = {"0"};
   options.max_rays = kRays;
   auto patches = std::make_shared<const PatchSet>(
       *BuildPatches(*LoadGltf({"room.glb", ToGlb(MakeCornell(kSquares)), {}}), {}));
@@ -87,6 +90,33 @@ TEST(SameBytesOfExact, WithAnyNumberOfWorkersAndOneKilled) {
     ExpectSameBytes(farm.Watch(job.name()), expected);
   }
 }
+
+// The other methods, of which some keep statistics: two workers, and one of three killed.
+class SameBytesOfMethod : public testing::TestWithParam<Method> {};
+
+TEST_P(SameBytesOfMethod, WithTwoWorkersAndWithOneOfThreeKilled) {
+  const std::string expected = SolveSerially(GetParam());
+  for (const int workers : {2, 3}) {
+    Farm farm;
+    for (int i = 0; i < workers; ++i) farm.AddWorker();
+    const v1::SolveJob job = farm.CreateJob(kRays, "", kSquares, MethodName(GetParam()));
+    if (workers == 3) {
+      farm.WaitUntilUnderWay(job.name());
+      farm.worker(0).Signal(SIGKILL);
+    }
+    ExpectSameBytes(farm.Watch(job.name()), expected);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Others, SameBytesOfMethod,
+                         testing::Values(Method::kMcr, Method::kHs97, Method::kHs98, Method::kPhs,
+                                         Method::kPhsAlpha, Method::kPhsAdaptive,
+                                         Method::kImportance),
+                         [](const auto& info) {
+                           std::string name = MethodName(info.param);
+                           name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+                           return name;
+                         });
 
 TEST(SameBytesInTrouble, WithAWorkerKilledInTheMiddle) {
   Farm farm;

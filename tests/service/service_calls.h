@@ -88,6 +88,7 @@ class ServiceCalls {
     request.set_solve_job_id(id);
     request.mutable_spec()->set_max_ray_count(max_rays);
     request.mutable_spec()->mutable_shoot()->set_method(method);
+    if (method == "importance") request.mutable_spec()->mutable_shoot()->add_region("0");
     v1::SolveJob job;
     grpc::ClientContext context;
     const grpc::Status status = jobs()->CreateSolveJob(&context, request, &job);

@@ -19,6 +19,13 @@ inline SharedPatches Share(const Scene& scene) {
   return std::make_shared<const PatchSet>(PatchesOf(scene));
 }
 
+// All but exact, which has tests of its own.
+inline std::vector<Method> ShootingMethods() {
+  std::vector<Method> methods = AllMethods();
+  std::erase(methods, Method::kExact);
+  return methods;
+}
+
 // A method with a budget of rays; pyramids, where used, from visits of 64 rays on.
 inline SolveOptions Budget(Method method, int64_t max_rays, uint64_t seed = 1) {
   SolveOptions options;

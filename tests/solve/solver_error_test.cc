@@ -49,7 +49,7 @@ void ExpectTrueError(SharedPatches patches, Method method, const std::vector<Rgb
 TEST(EstimatedError, IsTheTrueErrorOfAFurnace) {
   const SharedPatches patches = Share(MakeFurnace(0.6, 1, 4));
   const std::vector<Rgb> truth(patches->size(), Rgb{2.5, 2.5, 2.5});  // E / (1 - rho)
-  for (Method method : {Method::kPmcr, Method::kPhs}) {
+  for (Method method : ShootingMethods()) {
     ExpectTrueError(patches, method, truth, 1, SolveSeeds(patches, method, 40000));
   }
 }
@@ -57,7 +57,7 @@ TEST(EstimatedError, IsTheTrueErrorOfAFurnace) {
 // The mean over the seeds stands for the truth; distances from it are (n - 1) / n of the variance.
 TEST(EstimatedError, IsTheSpreadOverSeedsOfACornellBox) {
   const SharedPatches patches = Share(MakeCornell(2));
-  for (Method method : {Method::kPmcr, Method::kPhs}) {
+  for (Method method : ShootingMethods()) {
     const Solved solved = SolveSeeds(patches, method, 40000);
     std::vector<Rgb> mean(patches->size());
     for (const auto& b : solved.radiosity) {

@@ -13,14 +13,8 @@ SharedPatches Cornell() {
   return patches;
 }
 
-// Those that shoot; each has state of its own kind.
-std::vector<Method> Methods() {
-  return {Method::kMcr, Method::kPmcr,     Method::kHs97,        Method::kHs98,
-          Method::kPhs, Method::kPhsAlpha, Method::kPhsAdaptive, Method::kImportance};
-}
-
 TEST(Solver, TheSameSeedGivesTheSameBytesAndAnotherSeedOthers) {
-  for (Method method : Methods()) {
+  for (Method method : ShootingMethods()) {
     SolverRun a(Cornell(), Budget(method, 60000, 7)), b(Cornell(), Budget(method, 60000, 7)),
         c(Cornell(), Budget(method, 60000, 8));
     for (SolverRun* run : {&a, &b, &c}) ASSERT_TRUE(run->ToTheEnd().ok());
@@ -43,7 +37,7 @@ TEST(Solver, TheRoundingOfRayNumbersDependsOnTheSeed) {
 }
 
 TEST(Solver, RestoredAfterAnyPassContinuesToTheSameBytes) {
-  for (Method method : Methods()) {
+  for (Method method : ShootingMethods()) {
     const SolveOptions options = Budget(method, 200000);
     SolverRun whole(Cornell(), options);
     std::vector<std::string> checkpoints = {whole.solver.EncodeCheckpoint()};
@@ -121,7 +115,7 @@ TEST(Solver, TellsOfEveryStepAsFluxIsSentUntilTheTolerance) {
 }
 
 TEST(Solver, BalancesItsLedgerAndMakesRadiosityOfIrradiance) {
-  for (Method method : Methods()) {
+  for (Method method : ShootingMethods()) {
     SolverRun run(Cornell(), Budget(method, 100000));
     ASSERT_TRUE(run.ToTheEnd().ok());
     const auto solution = run.solver.MakeSnapshot().solution;
