@@ -44,4 +44,18 @@ struct alignas(32) RandomNumbers8 {
 void FillRandomNumbers(const RandomStream& stream, uint32_t first, RandomNumbers8& out,
                        RandomPurpose purpose = RandomPurpose::kRay, uint32_t retry = 0);
 
+// Eight rays of any emitters.
+struct alignas(32) RayNames8 {
+  uint32_t emitter[8], ray[8];
+};
+// The same numbers, and the bits that they are made of, for eight rays that differ from `stream` in
+// the emitter: [k][lane].
+void FillRandomNumbers(const RandomStream& stream, const RayNames8& rays, RandomNumbers8& out,
+                       RandomPurpose purpose = RandomPurpose::kRay, uint32_t retry = 0);
+struct alignas(32) RandomBits8 {
+  uint32_t bits[4][8];
+};
+void FillRandomBits(const RandomStream& stream, const RayNames8& rays, RandomBits8& out,
+                    RandomPurpose purpose);
+
 }  // namespace lambert

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "radiosity/core/lanes.h"
+
 namespace lambert {
 namespace {
 
@@ -32,12 +34,6 @@ double HighestOnArc(Vec3 p, Vec3 q) {
   if (Dot(Cross(p, top), normal) > 0 && Dot(Cross(top, q), normal) > 0) return Length(top);
   return std::max(p.z, q.z);
 }
-
-// Four lanes of doubles; operators and ?: work lane by lane.
-using Double4 = double __attribute__((vector_size(32)));
-
-inline double Root(double x) { return std::sqrt(x); }
-inline Double4 Root(Double4 x) { return _mm256_sqrt_pd(x); }
 
 template <typename Real>
 struct Vector {

@@ -1,28 +1,28 @@
 #include "radiosity/shoot/arrivals.h"
 
-#include <algorithm>
-#include <numeric>
+#include <bit>
 #include <utility>
 
 namespace lambert {
 
 std::vector<Deposit> Arrivals::Take() {
-  if (hit_.size() > cells_.size() / 8) {
-    // So many are sooner found in order than sorted.
-    hit_.resize(cells_.size());
-    std::iota(hit_.begin(), hit_.end(), 0);
-  } else {
-    std::sort(hit_.begin(), hit_.end());
-  }
   std::vector<Deposit> deposits;
-  deposits.reserve(hit_.size());
-  for (PatchIndex patch : hit_) {
-    Cell& cell = cells_[patch];
-    if (cell.hits == 0) continue;
-    deposits.push_back({cell.r, cell.g, cell.b, cell.hits, patch});
-    cell = {};
+  deposits.reserve(hit_count_);
+  for (size_t w = 0; w < hit_words_.size(); ++w) {
+    for (uint64_t words = std::exchange(hit_words_[w], 0); words != 0; words &= words - 1) {
+      const size_t word = 64 * w + static_cast<size_t>(std::countr_zero(words));
+      for (uint64_t bits = hit_[word]; bits != 0; bits &= bits - 1) {
+        Prefetch(static_cast<PatchIndex>(64 * word) + std::countr_zero(bits));
+      }
+      for (uint64_t bits = std::exchange(hit_[word], 0); bits != 0; bits &= bits - 1) {
+        const PatchIndex patch = static_cast<PatchIndex>(64 * word) + std::countr_zero(bits);
+        Long4& cell = cells_[patch];
+        deposits.push_back({cell[0], cell[1], cell[2], cell[3], patch});
+        cell = Long4{};
+      }
+    }
   }
-  hit_.clear();
+  hit_count_ = 0;
   return deposits;
 }
 

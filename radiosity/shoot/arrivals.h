@@ -1,10 +1,14 @@
 // Where the rays of a unit arrive: dense while they do, a list of the patches that were hit after.
+// Which were hit is kept in two levels of bits: the list comes in order without sorting or a walk
+// over all patches.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <vector>
 
+#include "radiosity/core/lanes.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/shoot/unit.h"
 
@@ -13,27 +17,34 @@ namespace lambert {
 // One thread at a time.
 class Arrivals {
  public:
-  explicit Arrivals(PatchIndex patch_count) : cells_(patch_count) {}
+  explicit Arrivals(PatchIndex patch_count)
+      : cells_(patch_count), hit_(patch_count / 64 + 1), hit_words_(hit_.size() / 64 + 1) {}
 
   // Requires: 0 <= patch < patch_count.
   void Prefetch(PatchIndex patch) const { __builtin_prefetch(&cells_[patch], 1); }
-  void Add(PatchIndex patch, int64_t r, int64_t g, int64_t b) {
-    Cell& cell = cells_[patch];
-    cell.r += r;
-    cell.g += g;
-    cell.b += b;
-    if (cell.hits++ == 0) hit_.push_back(patch);
+  // r, g, b and the number of rays, which is over 0.
+  void Add(PatchIndex patch, Long4 quanta) {
+    Long4& cell = cells_[patch];
+    if (cell[3] == 0) Mark(patch);
+    cell += quanta;
   }
+  void Add(PatchIndex patch, int64_t r, int64_t g, int64_t b) { Add(patch, Long4{r, g, b, 1}); }
 
   // What arrived, in the order of patches; nothing has arrived after.
   std::vector<Deposit> Take();
 
  private:
-  struct alignas(32) Cell {  // an arrival touches one cache line
-    int64_t r = 0, g = 0, b = 0, hits = 0;
-  };
-  std::vector<Cell> cells_;
-  std::vector<PatchIndex> hit_;
+  void Mark(PatchIndex patch) {
+    const uint32_t p = static_cast<uint32_t>(patch), word = p / 64;
+    hit_[word] |= uint64_t{1} << p % 64;
+    hit_words_[word / 64] |= uint64_t{1} << word % 64;
+    ++hit_count_;
+  }
+
+  std::vector<Long4> cells_;         // an arrival touches one cache line
+  std::vector<uint64_t> hit_;        // bit k of word w: patch 64 w + k was hit
+  std::vector<uint64_t> hit_words_;  // bit k of word w: word 64 w + k of hit_ is not 0
+  size_t hit_count_ = 0;
 };
 
 // Keeps Arrivals for reuse: filling megabytes with zeros for a unit of few rays would take longer

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "radiosity/core/lanes.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/pyramid/spherical_triangle.h"
 #include "radiosity/shoot/ray_numbers.h"
@@ -18,6 +19,12 @@ struct EmitterFrame {
   float x[3], y[3], z[3];
 };
 
+// Eight of them, lane by lane.
+struct EmitterFrame8 {
+  Float8 corner[3], edge1[3], edge2[3];
+  Float8 x[3], y[3], z[3];
+};
+
 // The frames of all patches, compact; point lights have a position only. Immutable.
 class Emitters {
  public:
@@ -28,6 +35,8 @@ class Emitters {
   bool IsPointLight(PatchIndex emitter) const { return emitter >= patch_count(); }
   // Requires: emitter < patch_count().
   EmitterFrame Frame(PatchIndex emitter) const;
+  // Frames of eight patches, each equal to Frame of its emitter.
+  EmitterFrame8 Frames(const uint32_t emitters[8]) const;
   // Requires: IsPointLight(emitter).
   const float* Position(PatchIndex emitter) const {
     return point_lights_[emitter - patch_count()].data();
@@ -43,6 +52,9 @@ class Emitters {
 // Uniform on the patch, cosine law (figure 2 of JPS00; the direction by SC97's concentric map).
 void AppendCosineRays(const EmitterFrame& frame, const RayNumbers& numbers, uint32_t begin,
                       uint32_t end, RayBatch& batch);
+// The same for `count` <= 8 rays of any patches, each with its frame and its numbers.
+void AppendCosineRays(const EmitterFrame8& frames, const RandomNumbers8& numbers, int count,
+                      RayBatch& batch);
 // Uniform over the sphere.
 void AppendSphereRays(const float position[3], const RayNumbers& numbers, uint32_t begin,
                       uint32_t end, RayBatch& batch);

@@ -1,5 +1,11 @@
 #include "radiosity/shoot/ray_numbers.h"
 
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "radiosity/core/lanes.h"
+
 namespace lambert {
 namespace {
 
@@ -32,7 +38,8 @@ struct SobolDirections {
 constexpr SobolDirections kSobol;
 
 // The bits in reverse order.
-inline uint32_t Reverse(uint32_t x) {
+template <typename Bits>
+constexpr Bits Reverse(Bits x) {
   x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
   x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
   x = (x & 0x0F0F0F0Fu) << 4 | (x >> 4 & 0x0F0F0F0Fu);
@@ -41,13 +48,42 @@ inline uint32_t Reverse(uint32_t x) {
 }
 
 // Each bit of the result depends on that bit and lower ones alone (LK11, constants of Vegdahl).
-inline uint32_t LaineKarras(uint32_t x, uint32_t seed) {
+template <typename Bits>
+inline Bits LaineKarras(Bits x, Bits seed) {
   x ^= x * 0x3D20ADEAu;
   x += seed;
   x *= (seed >> 16) | 1;
   x ^= x * 0x05526C56u;
   x ^= x * 0x53A22864u;
   return x;
+}
+
+// Scrambling starts and ends with a reversal, and the reversal of a sum (XOR) is the sum of the
+// reversed: direction numbers in reverse spare the first.
+struct ReversedDirections {
+  uint32_t v[kDimensions][32] = {};
+  constexpr ReversedDirections() {
+    for (int d = 0; d < kDimensions; ++d) {
+      for (int bit = 0; bit < 32; ++bit) v[d][bit] = Reverse(kSobol.v[d][bit]);
+    }
+  }
+};
+constexpr ReversedDirections kReversed;
+
+// Owen-scrambled points `index` as numbers in [0, 1). seeds[d]: of a dimension, lane by lane.
+inline void FillSobol(Uint8 index, const Uint8 seeds[kDimensions], RandomNumbers8& out) {
+  uint32_t any = 0;
+  for (int lane = 0; lane < 8; ++lane) any |= index[lane];
+  const int width = std::bit_width(any);
+  Uint8 points[kDimensions] = {};
+  for (int bit = 0; bit < width; ++bit) {
+    const Uint8 mask = 0 - (index >> bit & 1);
+    for (int d = 0; d < kDimensions; ++d) points[d] ^= kReversed.v[d][bit] & mask;
+  }
+  for (int d = 0; d < kDimensions; ++d) {
+    const Uint8 bits = Reverse(LaineKarras(points[d], seeds[d])) >> 8;
+    Store(ToFloat8(reinterpret_cast<Int8>(bits)) * kTo01, out.numbers[d]);
+  }
 }
 
 }  // namespace
@@ -74,20 +110,25 @@ void RayNumbers::Fill(uint32_t first, RandomNumbers8& out) const {
     FillRandomNumbers(stream_, first, out);
     return;
   }
-  for (int d = 0; d < kDimensions; ++d) {
-    // The low three bits of a group's rays change and the others do not, but where a group is not
-    // aligned: one loop for both.
-    uint32_t bits[8] = {};
-    for (int bit = 0; bit < 32; ++bit) {
-      for (uint32_t lane = 0; lane < 8; ++lane) {
-        bits[lane] ^= kSobol.v[d][bit] & (0u - ((first + lane) >> bit & 1));
-      }
-    }
-    for (int lane = 0; lane < 8; ++lane) {
-      out.numbers[d][lane] =
-          static_cast<float>(OwenScramble(bits[lane], scramble_[d]) >> 8) * kTo01;
-    }
+  Uint8 seeds[kDimensions];
+  for (int d = 0; d < kDimensions; ++d) seeds[d] = Uint8{} + scramble_[d];
+  FillSobol(Uint8{0, 1, 2, 3, 4, 5, 6, 7} + first, seeds, out);
+}
+
+void FillRayNumbers(const RandomStream& stream, Sequence sequence, const RayNames8& rays,
+                    RandomNumbers8& out) {
+  if (sequence == Sequence::kRandom) {
+    FillRandomNumbers(stream, rays, out);
+    return;
   }
+  RayNames8 first = rays;
+  std::fill_n(first.ray, 8, 0u);  // a visit's scramble is that of its emitter's ray 0
+  RandomBits8 scramble;
+  FillRandomBits(stream, first, scramble, RandomPurpose::kScramble);
+  Uint8 index, seeds[kDimensions];
+  std::memcpy(&index, rays.ray, sizeof(index));
+  std::memcpy(seeds, scramble.bits, sizeof(seeds));
+  FillSobol(index, seeds, out);
 }
 
 }  // namespace lambert

@@ -30,6 +30,10 @@ class RayNumbers {
   std::array<uint32_t, 4> scramble_{};  // of each dimension
 };
 
+// The same for eight rays of any emitters, which differ from `stream` in the emitter.
+void FillRayNumbers(const RandomStream& stream, Sequence sequence, const RayNames8& rays,
+                    RandomNumbers8& out);
+
 // Point `index` of the unscrambled Sobol sequence in base 2 (direction numbers of JK08), as 32 bits
 // after the point. Requires: 0 <= dimension < 4.
 uint32_t SobolBits(uint32_t index, int dimension);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "radiosity/core/error.h"
+#include "radiosity/core/lanes.h"
 
 namespace lambert {
 namespace {
@@ -22,8 +23,9 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // What the filter of the culling scene needs of each triangle.
 struct Faces {
-  std::vector<PatchIndex> front;  // by Embree primitive
-  std::vector<PatchIndex> back;   // kNoPatch: one-sided
+  std::vector<PatchIndex> front;   // by Embree primitive
+  std::vector<PatchIndex> back;    // kNoPatch: one-sided
+  bool front_is_primitive = true;  // front[k] is k: no patch has a back
 };
 
 // Rejects the backs of one-sided triangles. Embree calls it with one ray at a time here.
@@ -103,6 +105,7 @@ struct RayScene::Impl {
   RTCScene CullingScene() const;
   PatchIndex SideHit(const RTCRayHit& ray) const;
   RTCRayHit CastCulled(const float origin[3], const float direction[3]) const;
+  PatchIndex FrontBehind(const RTCRayHit8& packet, int l) const;
   void TracePacket(RayBatch& batch, int first) const;
   void OccludePacket(RayBatch& batch, int first) const;
 };
@@ -119,6 +122,7 @@ void RayScene::Impl::Place(const PatchSet& patches) {
   scale = std::ldexp(1.0, -std::ilogb(Length(high - low)));
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     if (patches.is_back[i]) continue;
+    faces.front_is_primitive &= i == static_cast<PatchIndex>(faces.front.size());
     faces.front.push_back(i);
     faces.back.push_back(patches.twin[i]);
     for (const Vec3& p : patches.corners[i]) {
@@ -182,27 +186,39 @@ void RayScene::Impl::TracePacket(RayBatch& batch, int first) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect8(valid, scene, &context, &packet);
+  const auto load = [](const auto* from) {
+    Int8 lanes;
+    std::memcpy(&lanes, from, sizeof(lanes));
+    return lanes;
+  };
+  // Lanes that are not valid have hit nothing; a batch has room for them.
+  const Int8 none = Int8{} - 1;
+  const Int8 hit = load(packet.hit.geomID) != none;  // RTC_INVALID_GEOMETRY_ID
+  const Int8 face = hit ? load(packet.hit.primID) : Int8{};
+  const Float8 facing = LoadFloat8(packet.hit.Ng_x) * LoadFloat8(packet.ray.dir_x) +
+                        LoadFloat8(packet.hit.Ng_y) * LoadFloat8(packet.ray.dir_y) +
+                        LoadFloat8(packet.hit.Ng_z) * LoadFloat8(packet.ray.dir_z);
+  const Int8 behind = hit & (facing > 0);
+  const bool any_behind = AnyLane(behind);
+  Int8 side = face;
+  if (!faces.front_is_primitive) side = Gather(faces.front.data(), face);
+  if (any_behind) side = behind ? Gather(faces.back.data(), face) : side;
+  side = hit ? side : none;
+  std::memcpy(batch.hit + first, &side, sizeof(side));
+  if (!any_behind) return;
   for (int l = 0; l < kPacketWidth; ++l) {
-    if (valid[l] == 0) break;
-    PatchIndex hit = kEscaped;
-    if (packet.hit.geomID[l] != RTC_INVALID_GEOMETRY_ID) {
-      const uint32_t face = packet.hit.primID[l];
-      const float facing = packet.hit.Ng_x[l] * packet.ray.dir_x[l] +
-                           packet.hit.Ng_y[l] * packet.ray.dir_y[l] +
-                           packet.hit.Ng_z[l] * packet.ray.dir_z[l];
-      hit = facing > 0 ? faces.back[face] : faces.front[face];
-      if (hit == kNoPatch) {
-        const float origin[3] = {packet.ray.org_x[l], packet.ray.org_y[l], packet.ray.org_z[l]};
-        const float direction[3] = {packet.ray.dir_x[l], packet.ray.dir_y[l], packet.ray.dir_z[l]};
-        const RTCRayHit culled = CastCulled(origin, direction);
-        const Vec3 d{direction[0], direction[1], direction[2]};
-        const double behind =
-            (static_cast<double>(culled.ray.tfar) - packet.ray.tfar[l]) * Length(d);
-        hit = behind <= kTieDistance ? SideHit(culled) : kEscaped;
-      }
-    }
-    batch.hit[first + l] = hit;
+    if (behind[l] != 0 && side[l] == kNoPatch) batch.hit[first + l] = FrontBehind(packet, l);
   }
+}
+
+// What lane `l` hits, which has met the back of a one-sided triangle.
+PatchIndex RayScene::Impl::FrontBehind(const RTCRayHit8& packet, int l) const {
+  const float origin[3] = {packet.ray.org_x[l], packet.ray.org_y[l], packet.ray.org_z[l]};
+  const float direction[3] = {packet.ray.dir_x[l], packet.ray.dir_y[l], packet.ray.dir_z[l]};
+  const RTCRayHit culled = CastCulled(origin, direction);
+  const Vec3 d{direction[0], direction[1], direction[2]};
+  const double behind = (static_cast<double>(culled.ray.tfar) - packet.ray.tfar[l]) * Length(d);
+  return behind <= kTieDistance ? SideHit(culled) : kEscaped;
 }
 
 void RayScene::Impl::OccludePacket(RayBatch& batch, int first) const {
