@@ -12,6 +12,9 @@ namespace {
 constexpr int64_t kMinFirstPassRays = 1 << 13;
 constexpr int64_t kMaxFirstPassRays = 1 << 20;
 constexpr int64_t kMaxExactPassRays = 1 << 25;
+// A pass takes some thirty exchanges with the workers, however small: no more than ten or so of
+// them.
+constexpr int64_t kLeastShareOfBudget = 100;
 constexpr int64_t kPassesInBudget = 4;  // the first pass takes at most this share of --max-rays
 // Mean area times mean inverse area, 1 for equal patches. Over it, small patches stand among large
 // ones and pyramids send them more rays; under it they only add noise (docs/methods.md).
