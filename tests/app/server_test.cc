@@ -119,7 +119,7 @@ TEST_F(ServerTest, AServerThatIsKilledAndStartedAgainIsGoneOnWith) {
   StartServer();
   StartWorker();
   const auto bake =
-      Start(There({"bake", "room.glb", "-o", "out", "--max-rays", "3M", "--progress", "plain"}));
+      Start(There({"bake", "room.glb", "-o", "out", "--max-rays", "20M", "--progress", "plain"}));
   ASSERT_NE(bake->WaitForError("error "), std::string::npos) << bake->error();
   server_->Signal(SIGKILL);
   server_->Wait();
@@ -128,7 +128,7 @@ TEST_F(ServerTest, AServerThatIsKilledAndStartedAgainIsGoneOnWith) {
   EXPECT_EQ(bake->Wait(), 0) << bake->error();
   EXPECT_NE(bake->error().find("back at " + address_), std::string::npos) << bake->error();
   ExpectAllFiles("out");
-  ASSERT_EQ(Run({"bake", "room.glb", "-o", "here", "--max-rays", "3M"}).exit_code, 0);
+  ASSERT_EQ(Run({"bake", "room.glb", "-o", "here", "--max-rays", "20M"}).exit_code, 0);
   EXPECT_EQ(Read("here/patches.csv"), Read("out/patches.csv"));
 }
 
