@@ -35,8 +35,8 @@ cpu_ticks() { # of some processes together
   echo "$sum"
 }
 
-bake() { # ADDRESS FOLDER: prints the seconds from the scene in the server to the last pass
-  "$bin/app/lambert" bake "$scene" -o "$2" --server "$1" --max-rays "$rays" --progress none --json \
+bake() { # ADDRESS FOLDER RAYS: prints the seconds from the scene in the server to the last pass
+  "$bin/app/lambert" bake "$scene" -o "$2" --server "$1" --max-rays "$3" --progress none --json \
     >/dev/null
   awk -F, 'NR > 1 { seconds = $6 } END { print seconds }' "$2/convergence.csv"
 }
@@ -45,14 +45,14 @@ serve 1
 one=$address
 serve 2
 two=$address two_server=$server_id two_workers=("${workers[@]}")
-bake "$one" "$work/a" >/dev/null  # warms both up
-bake "$two" "$work/b" >/dev/null
+bake "$one" "$work/a" 1000000 >/dev/null  # warms both up
+bake "$two" "$work/b" 1000000 >/dev/null
 
 ratios=()
 for ((round = 1; round <= rounds; ++round)); do
-  t1=$(bake "$one" "$work/a")
+  t1=$(bake "$one" "$work/a" "$rays")
   server_before=$(cpu_ticks "$two_server") worker_before=$(cpu_ticks "${two_workers[@]}")
-  t2=$(bake "$two" "$work/b")
+  t2=$(bake "$two" "$work/b" "$rays")
   server=$(($(cpu_ticks "$two_server") - server_before))
   worker=$(($(cpu_ticks "${two_workers[@]}") - worker_before))
   cmp "$work/a/patches.csv" "$work/b/patches.csv"

@@ -19,7 +19,6 @@ struct Deal {
   int64_t quotient, remainder;
   Deal(int64_t quanta, int64_t rays)
       : quotient(rays == 1 ? quanta : quanta / rays), remainder(quanta - quotient * rays) {}
-  int64_t Of(int64_t ray) const { return quotient + (ray < remainder ? 1 : 0); }
 };
 
 // Of the three channels at once, and the ray that carries them: r, g, b, 1.

@@ -36,7 +36,6 @@ struct SightingTable::OfEmitter {
 
 SightingTable::SightingTable() = default;
 SightingTable::~SightingTable() = default;
-SightingTable::SightingTable(SightingTable&&) = default;
 SightingTable& SightingTable::operator=(SightingTable&&) = default;
 
 void SightingTable::Add(const std::vector<Sighting>& sightings) {

@@ -18,7 +18,6 @@ class SightingTable {
  public:
   SightingTable();
   ~SightingTable();
-  SightingTable(SightingTable&&);
   SightingTable& operator=(SightingTable&&);
 
   void Add(const std::vector<Sighting>& sightings);

@@ -53,6 +53,24 @@ TEST(FillRandomNumbers, EqualsTheScalarNumbersBitForBit) {
   }
 }
 
+TEST(FillRandomBits, EqualsTheScalarBitsOfRaysOfAnyEmitters) {
+  TestRandom random(4);
+  const RandomStream stream{random.Bits(), 0, 7, 9};
+  RayNames8 names;
+  for (int lane = 0; lane < 8; ++lane) {
+    names.emitter[lane] = static_cast<uint32_t>(random.Bits());
+    names.ray[lane] = static_cast<uint32_t>(random.Bits());
+  }
+  RandomBits8 group;
+  FillRandomBits(stream, names, group, RandomPurpose::kScramble);
+  for (int lane = 0; lane < 8; ++lane) {
+    RandomStream one = stream;
+    one.emitter = names.emitter[lane];
+    const auto bits = RandomBits(one, names.ray[lane], RandomPurpose::kScramble);
+    for (int k = 0; k < 4; ++k) EXPECT_EQ(group.bits[k][lane], bits[k]) << lane;
+  }
+}
+
 TEST(RandomNumbers, AreMultiplesOfTwoToTheMinus24UnderOne) {
   const RandomStream stream{9, 1, 2, 3};
   for (uint32_t ray = 0; ray < 20000; ++ray) {
