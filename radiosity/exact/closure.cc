@@ -27,13 +27,7 @@ void AppendRay(const Triangle& t, const std::array<float, 4>& numbers, const Ray
   const Vec3 origin =
       scene.ToTrace(t[0] + (t[1] - t[0]) * b1 + (t[2] - t[0]) * b2) + normal * kOriginOffset;
   const Vec3 direction = along * x + Cross(normal, along) * y + normal * std::sqrt(height2);
-  const int slot = batch.size++;
-  batch.origin_x[slot] = static_cast<float>(origin.x);
-  batch.origin_y[slot] = static_cast<float>(origin.y);
-  batch.origin_z[slot] = static_cast<float>(origin.z);
-  batch.direction_x[slot] = static_cast<float>(direction.x);
-  batch.direction_y[slot] = static_cast<float>(direction.y);
-  batch.direction_z[slot] = static_cast<float>(direction.z);
+  batch.Add(origin, direction);
 }
 
 bool AllArrive(const RayScene& scene, RayBatch& batch) {

@@ -91,15 +91,7 @@ void SegmentTracer::Add(Vec3 from, Vec3 from_normal, Vec3 to, Vec3 to_normal) {
   const Vec3 lift =
       from_normal == Vec3{} ? Normalized(to - from) * kTieDistance : from_normal * kOriginOffset;
   const Vec3 a = scene_.ToTrace(from) + lift;
-  const Vec3 d = end - a;
-  RayBatch& batch = *batch_;
-  const int slot = batch.size++;
-  batch.origin_x[slot] = static_cast<float>(a.x);
-  batch.origin_y[slot] = static_cast<float>(a.y);
-  batch.origin_z[slot] = static_cast<float>(a.z);
-  batch.direction_x[slot] = static_cast<float>(d.x);
-  batch.direction_y[slot] = static_cast<float>(d.y);
-  batch.direction_z[slot] = static_cast<float>(d.z);
+  batch_->Add(a, end - a);
 }
 
 }  // namespace lambert

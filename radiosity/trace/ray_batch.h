@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "radiosity/core/vec3.h"
 #include "radiosity/patch/patch_set.h"
 
 namespace lambert {
@@ -19,6 +20,17 @@ struct RayBatch {
   alignas(64) float origin_x[kSlots], origin_y[kSlots], origin_z[kSlots];
   alignas(64) float direction_x[kSlots], direction_y[kSlots], direction_z[kSlots];
   alignas(64) PatchIndex hit[kSlots];  // result: a patch or kEscaped
+
+  // One more ray, rounded to float. Requires: size < kCapacity.
+  void Add(Vec3 origin, Vec3 direction) {
+    origin_x[size] = static_cast<float>(origin.x);
+    origin_y[size] = static_cast<float>(origin.y);
+    origin_z[size] = static_cast<float>(origin.z);
+    direction_x[size] = static_cast<float>(direction.x);
+    direction_y[size] = static_cast<float>(direction.y);
+    direction_z[size] = static_cast<float>(direction.z);
+    ++size;
+  }
 };
 
 }  // namespace lambert
