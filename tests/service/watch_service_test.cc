@@ -3,7 +3,15 @@
 namespace lambert {
 namespace {
 
-using WatchService = ServiceFixture;
+class WatchService : public ServiceFixture {
+ protected:
+  // A stream of a job's news, as yet unread.
+  auto StartToWatch(const v1::SolveJob& job, grpc::ClientContext& context) {
+    v1::WatchSnapshotsRequest watch;
+    watch.set_parent(job.name());
+    return snapshots()->WatchSnapshots(&context, watch);
+  }
+};
 
 TEST_F(WatchService, AWatcherResumesAfterTheVersionThatItHas) {
   AddWorker();
@@ -45,10 +53,8 @@ TEST_F(WatchService, WatchingNoJobIsAnError) {
 TEST_F(WatchService, AWatcherThatGoesAwayHoldsNothingUp) {
   const v1::SolveJob job = CreateJob();
   grpc::ClientContext context;
-  v1::WatchSnapshotsRequest watch;
-  watch.set_parent(job.name());
-  auto reader = snapshots()->WatchSnapshots(&context, watch);
   v1::WatchSnapshotsResponse news;
+  auto reader = StartToWatch(job, context);
   ASSERT_TRUE(reader->Read(&news));
   context.TryCancel();
   EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::CANCELLED);
@@ -59,10 +65,8 @@ TEST_F(WatchService, AWatcherThatGoesAwayHoldsNothingUp) {
 TEST_F(WatchService, ShutdownTellsWatchersToComeAgain) {
   const v1::SolveJob job = CreateJob();
   grpc::ClientContext context;
-  v1::WatchSnapshotsRequest watch;
-  watch.set_parent(job.name());
-  auto reader = snapshots()->WatchSnapshots(&context, watch);
   v1::WatchSnapshotsResponse news;
+  auto reader = StartToWatch(job, context);
   ASSERT_TRUE(reader->Read(&news));
   coordinator_->Shutdown();
   while (reader->Read(&news)) {
