@@ -171,7 +171,7 @@ void Launcher::ShootProbing(const Visit& visit, const RayNumbers& numbers, Fligh
   const std::vector<uint32_t> probing = CellRays(by_flux.densities, probes, offsets[0]);
   const std::vector<double> worth =
       ProbeWorth(sampler, scene_, emitters_.Frame(visit.emitter), numbers, probing,
-                 {options_.pyramids.rule, &directions_->hit_worth()}, nullptr);
+                 {options_.pyramids.rule, &directions_->hit_worth()});
   ShootStage(visit, first, by_flux, probing, numbers, flight);
   const Directions seen = directions_->FromWorth(worth);
   ShootStage(visit, second, seen, CellRays(seen.densities, second.count, offsets[1]), numbers,

@@ -24,8 +24,7 @@ double MeanWorth(const std::vector<PatchIndex>& hits, uint32_t rays,
 std::vector<double> ProbeWorth(const CellSampler& sampler, const RayScene& scene,
                                const EmitterFrame& frame, const RayNumbers& numbers,
                                const std::vector<uint32_t>& rays_of_cell,
-                               const ProbeOptions& options,
-                               const std::function<void(uint32_t, int32_t, PatchIndex)>& on_hit) {
+                               const ProbeOptions& options) {
   std::vector<int32_t> cells;
   for (size_t p = 0; p < rays_of_cell.size(); ++p) {
     cells.insert(cells.end(), rays_of_cell[p], static_cast<int32_t>(p));
@@ -42,7 +41,6 @@ std::vector<double> ProbeWorth(const CellSampler& sampler, const RayScene& scene
     for (uint32_t ray = begin; ray < end; ++ray) {
       const PatchIndex hit = batch->hit[ray - begin];
       if (hit >= 0) hits[cells[ray]].push_back(hit);
-      if (on_hit) on_hit(ray, cells[ray], hit);
     }
   }
   std::vector<double> worth(hits.size());

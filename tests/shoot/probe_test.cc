@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <set>
 
 #include "tests/support/scenes.h"
@@ -20,20 +21,26 @@ TEST(ProbeWorth, CountsEachPatchOnceOrWeighsWhatIsHit) {
   for (PatchIndex i = 0; i < patches.size(); ++i) worth_of_hit[i] = 1 + i;
   std::vector<std::set<PatchIndex>> seen(64);
   std::vector<double> sums(64);
-  uint32_t next = 0;
+  // The same rays, traced here, cell by cell.
+  auto batch = std::make_unique<RayBatch>();
+  float weight[RayBatch::kSlots];
+  for (int32_t cell = 0; cell < 64; ++cell) {
+    batch->size = 0;
+    const auto first = static_cast<uint32_t>(40 * cell);
+    sampler.Append(emitters.Frame(5), {}, std::vector<int32_t>(40, cell).data(),
+                   RandomStream{1, 5, 0, 0}, first, first + 40, *batch, weight);
+    scene->Trace(*batch);
+    for (int k = 0; k < 40; ++k) {
+      if (batch->hit[k] < 0) continue;
+      seen[cell].insert(batch->hit[k]);
+      sums[cell] += worth_of_hit[batch->hit[k]];
+    }
+  }
   const std::vector<double> counts =
-      ProbeWorth(sampler, *scene, emitters.Frame(5), RandomStream{1, 5, 0, 0}, rays,
-                 {DensityRule::kCount, nullptr}, [&](uint32_t ray, int32_t cell, PatchIndex hit) {
-                   EXPECT_EQ(ray, next++);
-                   EXPECT_EQ(cell, static_cast<int32_t>(ray / 40));
-                   if (hit < 0) return;
-                   seen[cell].insert(hit);
-                   sums[cell] += worth_of_hit[hit];
-                 });
-  EXPECT_EQ(next, 64u * 40);
+      ProbeWorth(sampler, *scene, emitters.Frame(5), RandomStream{1, 5, 0, 0}, rays, {});
   const std::vector<double> weighed =
       ProbeWorth(sampler, *scene, emitters.Frame(5), RandomStream{1, 5, 0, 0}, rays,
-                 {DensityRule::kVariance, &worth_of_hit}, nullptr);
+                 {DensityRule::kVariance, &worth_of_hit});
   for (int p = 0; p < 64; ++p) {
     EXPECT_EQ(counts[p], seen[p].size());
     EXPECT_NEAR(weighed[p], sampler.fractions()[p] * std::sqrt(sums[p] / 40), 1e-12) << p;
