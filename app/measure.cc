@@ -1,7 +1,6 @@
 #include "app/measure.h"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "app/exit.h"
@@ -32,19 +31,9 @@ absl::StatusOr<std::set<int>> FindRegions(const std::vector<std::string>& region
                                           const std::vector<std::string>& node_names) {
   std::set<int> nodes;
   for (const std::string& region : regions) {
-    bool found = false;
-    for (size_t node = 0; node < node_names.size(); ++node) {
-      if (node_names[node] != region || region.empty()) continue;
-      nodes.insert(static_cast<int>(node));
-      found = true;
-    }
-    if (found) continue;
-    int index = -1;
-    const char* end = region.data() + region.size();
-    const auto [stop, error] = std::from_chars(region.data(), end, index);
-    if (error == std::errc() && stop == end && index >= 0 &&
-        index < static_cast<int>(node_names.size())) {
-      nodes.insert(index);
+    const std::vector<int32_t> called = NodesCalled(node_names, region);
+    if (!called.empty()) {
+      nodes.insert(called.begin(), called.end());
       continue;
     }
     const std::string nearest = NearestWord(region, node_names);

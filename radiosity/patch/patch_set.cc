@@ -1,5 +1,6 @@
 #include "radiosity/patch/patch_set.h"
 
+#include <charconv>
 #include <numbers>
 
 namespace lambert {
@@ -14,6 +15,23 @@ Vec3 PatchNormal(const PatchSet& patches, PatchIndex i) {
 Vec3 PatchCentroid(const PatchSet& patches, PatchIndex i) {
   const auto& [a, b, c] = patches.corners[i];
   return (a + b + c) / 3;
+}
+
+std::vector<int32_t> NodesCalled(const std::vector<std::string>& node_names,
+                                 const std::string& name) {
+  std::vector<int32_t> nodes;
+  for (size_t node = 0; node < node_names.size() && !name.empty(); ++node) {
+    if (node_names[node] == name) nodes.push_back(static_cast<int32_t>(node));
+  }
+  if (!nodes.empty()) return nodes;
+  int32_t index = -1;
+  const char* end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data(), end, index);
+  if (error == std::errc() && stop == end && index >= 0 &&
+      static_cast<size_t>(index) < node_names.size()) {
+    nodes.push_back(index);
+  }
+  return nodes;
 }
 
 Rgb EmittedFlux(const PatchSet& patches) {

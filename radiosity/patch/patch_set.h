@@ -49,6 +49,10 @@ struct PatchSet {
 Vec3 PatchNormal(const PatchSet& patches, PatchIndex i);
 // Mean of the three corners, relative to `origin`.
 Vec3 PatchCentroid(const PatchSet& patches, PatchIndex i);
+// The nodes that a user calls `name`: those of that name or, where there is none, that of this glTF
+// index. None: empty.
+std::vector<int32_t> NodesCalled(const std::vector<std::string>& node_names,
+                                 const std::string& name);
 // Emitted flux of all patches and point lights per channel [lm].
 Rgb EmittedFlux(const PatchSet& patches);
 

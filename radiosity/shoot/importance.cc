@@ -20,12 +20,6 @@ constexpr int kImportanceSteps = 64;
 constexpr double kUnsentImportance = 1e-3;  // of all: what is left does not matter
 constexpr double kLeastWeight = 0.1;        // of the mean
 
-bool IsNode(const PatchSet& patches, int32_t node, const std::string& name) {
-  if (std::to_string(node) == name) return true;
-  return node >= 0 && static_cast<size_t>(node) < patches.node_names.size() &&
-         patches.node_names[node] == name;
-}
-
 std::string NodesOf(const PatchSet& patches) {
   constexpr size_t kShown = 20;
   std::set<int32_t> nodes;
@@ -47,9 +41,10 @@ absl::StatusOr<std::vector<uint8_t>> RegionPatches(const PatchSet& patches,
                                                    const std::vector<std::string>& region) {
   std::vector<uint8_t> inside(patches.size());
   for (const std::string& name : region) {
+    const std::vector<int32_t> nodes = NodesCalled(patches.node_names, name);
     bool found = false;
     for (PatchIndex i = 0; i < patches.size(); ++i) {
-      if (!IsNode(patches, patches.source[i].node, name)) continue;
+      if (std::find(nodes.begin(), nodes.end(), patches.source[i].node) == nodes.end()) continue;
       inside[i] = 1;
       found = true;
     }

@@ -1,0 +1,23 @@
+#include "radiosity/patch/patch_set.h"
+
+#include <gtest/gtest.h>
+
+namespace lambert {
+namespace {
+
+TEST(NodesCalled, TakesNamesBeforeIndicesAndEveryNodeOfAName) {
+  const std::vector<std::string> names = {"desk", "2", "lamp", "desk", ""};
+  EXPECT_EQ(NodesCalled(names, "desk"), (std::vector<int32_t>{0, 3}));
+  EXPECT_EQ(NodesCalled(names, "2"), std::vector<int32_t>{1});
+  EXPECT_EQ(NodesCalled(names, "4"), std::vector<int32_t>{4});
+}
+
+TEST(NodesCalled, FindsNoneForWhatIsNeither) {
+  const std::vector<std::string> names = {"desk", ""};
+  for (const char* name : {"", "2", "-1", "0x", "des", "99999999999"}) {
+    EXPECT_EQ(NodesCalled(names, name), std::vector<int32_t>{}) << name;
+  }
+}
+
+}  // namespace
+}  // namespace lambert
