@@ -94,7 +94,7 @@ std::vector<double> DirectionTable::Worth(PatchIndex patch) const {
   const RandomStream stream{0, static_cast<uint32_t>(patch), 0, 0};
   const std::vector<uint32_t> rays(cells.size(), static_cast<uint32_t>(options_.pyramids.probes));
   return ProbeWorth(sampler_, scene_, emitters_.Frame(patch), stream, rays,
-                    {options_.pyramids.rule, &hit_worth_}, nullptr);
+                    {options_.pyramids.rule, &hit_worth_});
 }
 
 Directions DirectionTable::FromWorth(const std::vector<double>& worth) const {
