@@ -1,8 +1,48 @@
 #include "radiosity/solve/flux_ledger.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lambert {
+namespace {
+
+Rgb Magnitude(Rgb flux) { return {std::fabs(flux.r), std::fabs(flux.g), std::fabs(flux.b)}; }
+
+// Two lists in order of emitters as one.
+std::vector<UnsentFlux> Sum(const std::vector<UnsentFlux>& a, const std::vector<UnsentFlux>& b) {
+  std::vector<UnsentFlux> sum;
+  sum.reserve(a.size() + b.size());
+  auto from_a = a.begin(), from_b = b.begin();
+  while (from_a != a.end() || from_b != b.end()) {
+    if (from_b == b.end() || (from_a != a.end() && from_a->emitter < from_b->emitter)) {
+      sum.push_back(*from_a++);
+    } else if (from_a == a.end() || from_b->emitter < from_a->emitter) {
+      sum.push_back(*from_b++);
+    } else {
+      sum.push_back({from_a->emitter, from_a->flux_lm + from_b->flux_lm});
+      ++from_a;
+      ++from_b;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<UnsentFlux> OfSign(const std::vector<UnsentFlux>& flux, int sign) {
+  std::vector<UnsentFlux> part;
+  for (const auto& [emitter, lm] : flux) {
+    Rgb of_sign;
+    for (int c = 0; c < 3; ++c) of_sign[c] = std::max(0.0, sign * lm[c]);
+    if (of_sign != Rgb{}) part.push_back({emitter, of_sign});
+  }
+  return part;
+}
+
+std::vector<UnsentFlux> Scaled(std::vector<UnsentFlux> flux, double factor) {
+  for (UnsentFlux& unsent : flux) unsent.flux_lm = unsent.flux_lm * factor;
+  return flux;
+}
 
 void CompensatedSum::Add(double value) {
   const double next = sum_ + value;
@@ -28,23 +68,42 @@ void FluxLedger::AddUnsent(int32_t emitter, Rgb flux_lm) {
   if (flux_lm == Rgb{}) return;
   unsent_.push_back({emitter, flux_lm});
   unsent_sum_ = unsent_sum_ + flux_lm;
+  unsent_magnitude_ = unsent_magnitude_ + Magnitude(flux_lm);
 }
 
-Rgb FluxLedger::Arrive(const Deposit& deposit, const Rgb& quantum_lm) {
+void FluxLedger::ClearUnsent() {
+  unsent_.clear();
+  unsent_sum_ = unsent_magnitude_ = {};
+}
+
+void FluxLedger::Add(const std::vector<UnsentFlux>& flux) {
+  const std::vector<UnsentFlux> sum = Sum(unsent_, flux);
+  ClearUnsent();
+  for (const UnsentFlux& unsent : sum) AddUnsent(unsent.emitter, unsent.flux_lm);
+}
+
+Rgb FluxLedger::Arrive(const Deposit& deposit, const Rgb& quantum) {
   const PatchIndex i = deposit.patch;
   hits_[i] += deposit.hits;
-  const Rgb arrived{static_cast<double>(deposit.r) * quantum_lm.r,
-                    static_cast<double>(deposit.g) * quantum_lm.g,
-                    static_cast<double>(deposit.b) * quantum_lm.b};
+  const Rgb arrived{static_cast<double>(deposit.r) * quantum.r,
+                    static_cast<double>(deposit.g) * quantum.g,
+                    static_cast<double>(deposit.b) * quantum.b};
   arrived_lm_[i] = arrived_lm_[i] + arrived;
   return arrived;
 }
 
-void FluxLedger::Book(const StepPlan& plan, const UnitResult& result) {
-  const Rgb quantum = plan.quantum_lm;
-  const Rgb unsent_before = unsent_sum_;
-  unsent_.clear();
-  unsent_sum_ = {};
+void FluxLedger::Book(std::vector<UnsentFlux> sent, const StepPlan& plan, const UnitResult& result,
+                      int sign) {
+  const Rgb quantum = plan.quantum_lm * sign;
+  std::vector<UnsentFlux> left;
+  const bool all = sign > 0 && !owes() && sent.size() == unsent_.size();
+  Rgb sent_sum;
+  for (UnsentFlux& flux : sent) {
+    sent_sum = sent_sum + flux.flux_lm * sign;
+    flux.flux_lm = flux.flux_lm * -sign;
+  }
+  if (!all) left = Sum(unsent_, sent);
+  ClearUnsent();
   Rgb absorbed;
   for (const Deposit& deposit : result.deposits) {
     const Rgb arrived = Arrive(deposit, quantum);
@@ -52,19 +111,19 @@ void FluxLedger::Book(const StepPlan& plan, const UnitResult& result) {
     absorbed = absorbed + (arrived - reflected);
     AddUnsent(deposit.patch, reflected);
   }
+  if (!left.empty()) Add(left);
   for (int c = 0; c < 3; ++c) {
     absorbed_[c].Add(absorbed[c]);
     escaped_[c].Add(static_cast<double>(result.escaped[c]) * quantum[c]);
     // What roulette and rounding shot too little, positive, or too much, negative.
-    residual_[c].Add(unsent_before[c]);
+    residual_[c].Add(sent_sum[c]);
     residual_[c].Add(-static_cast<double>(result.shot[c]) * quantum[c]);
   }
 }
 
 void FluxLedger::BookSolution(const StepPlan& plan, const UnitResult& result) {
   const Rgb emitted = unsent_sum_;
-  unsent_.clear();
-  unsent_sum_ = {};
+  ClearUnsent();
   CompensatedSum absorbed[3];
   for (const Deposit& deposit : result.deposits) {
     const Rgb arrived = Arrive(deposit, plan.quantum_lm);

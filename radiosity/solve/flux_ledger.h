@@ -21,20 +21,34 @@ class CompensatedSum {
   double sum_ = 0, error_ = 0;
 };
 
+// The flux of one sign, 1 or -1, as flux > 0.
+std::vector<UnsentFlux> OfSign(const std::vector<UnsentFlux>& flux, int sign);
+std::vector<UnsentFlux> Scaled(std::vector<UnsentFlux> flux, double factor);
+
 class FluxLedger {
  public:
   // All emitters' emission is unsent: patches first, then point lights.
   explicit FluxLedger(const PatchSet& patches);
 
-  // Emitters with unsent flux, in order.
+  // Emitters with unsent flux, in order. Negative flux takes back what was shot too much of; there
+  // is none but after Add.
   const std::vector<UnsentFlux>& unsent() const { return unsent_; }
-  // Sum over emitters and channels.
-  double unsent_total_lm() const { return unsent_sum_.r + unsent_sum_.g + unsent_sum_.b; }
+  // Whether some of it is negative.
+  bool owes() const { return unsent_total_lm() > unsent_sum_.r + unsent_sum_.g + unsent_sum_.b; }
+  // Magnitudes, summed over emitters and channels.
+  double unsent_total_lm() const {
+    return unsent_magnitude_.r + unsent_magnitude_.g + unsent_magnitude_.b;
+  }
   double emitted_total_lm() const { return emitted_.r + emitted_.g + emitted_.b; }
 
-  // Books a step: all that was unsent has been shot as `plan` says and arrived as `result` says;
-  // what arrived and is reflected becomes unsent.
-  void Book(const StepPlan& plan, const UnitResult& result);
+  // Books a step: the flux `sent`, times `sign`, has been shot as `plan` says and arrived as
+  // `result` says; it is no longer unsent, but what arrived and is reflected is.
+  void Book(std::vector<UnsentFlux> sent, const StepPlan& plan, const UnitResult& result,
+            int sign = 1);
+
+  // Adds signed flux, in order of emitters, to what is unsent. Whoever adds owes as much: over a
+  // pass, what is added must come to nothing (radiosity/solve/ambient.h).
+  void Add(const std::vector<UnsentFlux>& flux);
 
   // Books a finished solution: what was unsent was emitted, `result` holds all that arrived over
   // all bounces, and nothing is left unsent.
@@ -47,13 +61,14 @@ class FluxLedger {
 
  private:
   void AddUnsent(int32_t emitter, Rgb flux_lm);
+  void ClearUnsent();
   // Books what arrived, and returns it [lm].
-  Rgb Arrive(const Deposit& deposit, const Rgb& quantum_lm);
+  Rgb Arrive(const Deposit& deposit, const Rgb& quantum);
 
   const PatchSet& patches_;
   Rgb emitted_;
   std::vector<UnsentFlux> unsent_;
-  Rgb unsent_sum_;
+  Rgb unsent_sum_, unsent_magnitude_;
   std::vector<Rgb> arrived_lm_;
   std::vector<int64_t> hits_;
   CompensatedSum absorbed_[3], escaped_[3], residual_[3];

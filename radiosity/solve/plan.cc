@@ -11,6 +11,7 @@ namespace {
 
 constexpr int64_t kMinFirstPassRays = 1 << 13;
 constexpr int64_t kMaxFirstPassRays = 1 << 20;
+constexpr int64_t kAmbientRaysOfPatch = 64;
 constexpr int64_t kMaxExactPassRays = 1 << 25;
 // A pass takes some thirty exchanges with the workers, however small: no more than ten or so of
 // them.
@@ -19,6 +20,8 @@ constexpr int64_t kPassesInBudget = 4;  // the first pass takes at most this sha
 // Mean area times mean inverse area, 1 for equal patches. Over it, small patches stand among large
 // ones and pyramids send them more rays; under it they only add noise (docs/methods.md).
 constexpr double kUnevenAreas = 4;
+// From here on a pass has over a thousand steps.
+constexpr double kStiffReflectance = 0.99, kStiffShare = 0.01;
 
 double AreaUnevenness(const PatchSet& patches) {
   double sum = 0, inverse = 0;
@@ -80,9 +83,35 @@ PlanItem ClearPairsItem() {
           "every ray of a convex scene"};
 }
 
+PlanItem AmbientItem(bool used) {
+  if (used) {
+    return {"ambient flux", false,
+            "some part reflects " + Text(100 * kStiffReflectance) +
+                " % or more: where little is lost at a bounce, flux is shot before it has arrived",
+            ""};
+  }
+  return {"ambient flux", true,
+          "less than " + Text(100 * kStiffShare) + " % of the area reflects " +
+              Text(100 * kStiffReflectance) + " % or more: light dies out soon",
+          "the search for parts that exchange no light"};
+}
+
+// Whether some part of the scene, such as one room of it, may reflect nearly all.
+bool IsStiff(const PatchSet& patches) {
+  double area = 0, bright = 0;
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    const Rgb rho = patches.reflectance[i];
+    area += patches.area_m2[i];
+    if (std::max({rho.r, rho.g, rho.b}) >= kStiffReflectance) bright += patches.area_m2[i];
+  }
+  return bright >= kStiffShare * area;
+}
+
 // Large enough that sampling takes about as long as the linear system.
-int64_t FirstPassRays(const PatchSet& patches, Method method) {
+int64_t FirstPassRays(const PatchSet& patches, Method method, bool ambient) {
   const int64_t n = patches.size();
+  // Where flux is shot ahead the noise is shot again: as little as there is with many rays a patch.
+  if (ambient) return std::clamp(kAmbientRaysOfPatch * n, kMinFirstPassRays, kMaxExactPassRays);
   return std::clamp<int64_t>(method == Method::kExact ? n * n : 2 * n, kMinFirstPassRays,
                              method == Method::kExact ? kMaxExactPassRays : kMaxFirstPassRays);
 }
@@ -99,9 +128,10 @@ Plan MakePlan(const PatchSet& patches, const SolveOptions& options) {
   if (solve.max_error == 0 && solve.max_rays == 0 && solve.max_time_s == 0) {
     solve.max_error = kDefaultMaxError;
   }
+  solve.ambient = IsStiff(patches) && solve.shoot.method != Method::kExact;
   plan.patches = patches.size();
   plan.worker_bytes = WorkerBytes(patches, solve.shoot);
-  plan.first_pass_rays = FirstPassRays(patches, solve.shoot.method);
+  plan.first_pass_rays = FirstPassRays(patches, solve.shoot.method, solve.ambient);
   if (solve.max_rays > 0) {
     const int64_t share = solve.max_rays / kPassesInBudget;
     // mcr shares its budget out evenly.
@@ -114,6 +144,7 @@ Plan MakePlan(const PatchSet& patches, const SolveOptions& options) {
     plan.items.push_back(DensityItem(patches, solve.shoot));
   }
   if (solve.shoot.method == Method::kExact) plan.items.push_back(ClearPairsItem());
+  plan.items.push_back(AmbientItem(solve.ambient));
   if (const int64_t black = CountBlack(patches); black > 0) {
     plan.items.push_back(
         {"rays from black patches", true, std::to_string(black) + " patches reflect nothing",

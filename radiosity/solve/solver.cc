@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "radiosity/core/error.h"
-#include "radiosity/core/philox.h"
 #include "radiosity/shoot/importance.h"
-#include "radiosity/solve/allocate.h"
+#include "radiosity/shoot/light_groups.h"
 #include "radiosity/solve/checkpoint.h"
-#include "radiosity/solve/flux_ledger.h"
+#include "radiosity/solve/pass.h"
 #include "radiosity/solve/plan.h"
 #include "radiosity/solve/replicates.h"
 #include "radiosity/solve/sightings.h"
@@ -21,8 +19,7 @@ constexpr double kPassGrowth = 1.5;
 constexpr int32_t kFirstPasses = 2;        // one pass has no standard error
 constexpr int32_t kMinPassesForError = 3;  // before an estimated error is believed
 constexpr double kBudgetMargin = 0.01;  // of the rays left: a pass's rays are known to about this
-// Steps without any absorption or escape after which the flux is taken to have no way out.
-constexpr int64_t kStepsWithoutLoss = 10000;
+constexpr double kMostReflectance = 1 - 1e-7;
 
 // Rays of a whole pass for each ray of its first step, before any pass has told: 1 / (1 - rho) with
 // the area's mean reflectance, as in a closed scene.
@@ -32,21 +29,10 @@ double GuessRaysPerFirstRay(const PatchSet& patches) {
     area.Add(patches.area_m2[i]);
     reflecting.Add(patches.area_m2[i] * Mean(patches.reflectance[i]));
   }
-  return 1 / (1 - std::min(reflecting.value() / area.value(), 0.99999));
+  return 1 / (1 - std::min(reflecting.value() / area.value(), kMostReflectance));
 }
 
 }  // namespace
-
-absl::StatusOr<UnitResult> SerialExecutor::RunStep(const std::vector<WorkUnit>& units) {
-  UnitResult merged;
-  for (const WorkUnit& unit : units) {
-    absl::StatusOr<UnitResult> result = shooter_->Run(unit);
-    if (!result.ok()) return result.status();
-    if (absl::Status status = CheckLedger(unit, *result); !status.ok()) return status;
-    MergeResult(*result, merged);
-  }
-  return merged;
-}
 
 const char* StopReasonName(StopReason reason) {
   switch (reason) {
@@ -85,15 +71,12 @@ struct Solver::State {
   Progress CurrentProgress() const;
   absl::Status RunOnePass(StepExecutor& executor,
                           const std::function<void(const Progress&)>& on_step);
-  StepPlan PlanStep(double flux_per_ray, const FluxLedger& ledger) const;
-  // One step; false where the pass is over.
-  absl::StatusOr<bool> RunStep(StepExecutor& executor, double flux_per_ray, FluxLedger& ledger);
-  absl::Status CheckAbsorption(const StepPlan& plan, const UnitResult& result,
-                               const FluxLedger& ledger);
-  void KeepPass(const FluxLedger& ledger, int64_t pass_rays, int64_t first_step_rays);
+  void KeepPass(const Pass& pass);
   bool TimeIsOut() const { return options.max_time_s > 0 && Seconds() >= options.max_time_s; }
-  // Fills `weights` once.
-  absl::Status Weigh();
+  // Fills `weights` and `light_groups`, once.
+  absl::Status Prepare();
+  // What the passes so far tell the next one, where it shoots ahead.
+  Ambient::Before Before() const;
   void EstimateError();
   void DecideNext();
 
@@ -104,19 +87,23 @@ struct Solver::State {
   double started;
   RunState at;                                               // where the run stands
   double estimated_rms_area = -1, estimated_rms_patch = -1;  // of the replicates
-  int32_t step = 0;
-  int64_t steps_without_loss = 0;
-  bool weighed = false;
-  std::vector<double> weights;  // of the emitters, for AllocateRays
-  SightingTable sightings;      // of all passes: what was seen stays true
+  bool prepared = false;
+  std::vector<double> weights;        // of the emitters, for AllocateRays
+  std::vector<int32_t> light_groups;  // empty: nothing is shot ahead
+  SightingTable sightings;            // of all passes: what was seen stays true
 };
 
-absl::Status Solver::State::Weigh() {
-  if (weighed) return absl::OkStatus();
+absl::Status Solver::State::Prepare() {
+  if (prepared) return absl::OkStatus();
   absl::StatusOr<std::vector<double>> made = AllocationWeights(*patches, options.shoot);
   if (!made.ok()) return made.status();
   weights = *std::move(made);
-  weighed = true;
+  if (options.ambient) {
+    absl::StatusOr<std::unique_ptr<RayScene>> scene = RayScene::Create(*patches);
+    if (!scene.ok()) return scene.status();
+    light_groups = FindLightGroups(*patches, **scene);
+  }
+  prepared = true;
   return absl::OkStatus();
 }
 
@@ -135,102 +122,56 @@ Progress Solver::State::CurrentProgress() const {
   return progress;
 }
 
-absl::Status Solver::State::CheckAbsorption(const StepPlan& plan, const UnitResult& result,
-                                            const FluxLedger& ledger) {
-  double shot = 0;
-  for (int c = 0; c < 3; ++c) shot += static_cast<double>(result.shot[c]) * plan.quantum_lm[c];
-  const bool nothing_lost = ledger.unsent_total_lm() >= shot * (1 - 1e-13);
-  steps_without_loss = nothing_lost && shot > 0 ? steps_without_loss + 1 : 0;
-  if (steps_without_loss < kStepsWithoutLoss) return absl::OkStatus();
-  return MakeError(absl::StatusCode::kFailedPrecondition,
-                   {"SINGULAR_CLOSED_RHO_1", "scene",
-                    "no flux is ever absorbed or escapes: closed, with a reflectance of 1",
-                    "give some material a reflectance under 1"});
-}
-
-StepPlan Solver::State::PlanStep(double flux_per_ray, const FluxLedger& ledger) const {
-  const RandomStream stream{options.seed, 0, static_cast<uint32_t>(step),
-                            static_cast<uint32_t>(at.next_pass)};
-  const double offset = RandomNumbers(stream, 0, RandomPurpose::kPatchOffset)[0];
-  StepPlan plan = AllocateRays(ledger.unsent(), flux_per_ray, offset, weights);
-  if (options.shoot.method == Method::kPhsAlpha) {
-    for (Visit& visit : plan.visits) {
-      visit.seen = sightings.Counts(visit.emitter, options.shoot.pyramids.CellCount(),
-                                    options.shoot.pyramids.count_unseen);
-    }
-  }
-  return plan;
-}
-
-absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_per_ray,
-                                            FluxLedger& ledger) {
-  const bool whole = options.shoot.method == Method::kExact;  // a unit returns a solution
-  const StepPlan plan = whole ? PlanWholePass(ledger.unsent(), *patches, at.pass_rays)
-                              : PlanStep(flux_per_ray, ledger);
-  const int64_t unit_rays = whole ? plan.rays : UnitRays(plan.rays, patches->size());
-  UnitResult result;
-  if (plan.rays > 0) {
-    absl::StatusOr<UnitResult> ran =
-        executor.RunStep(CutIntoUnits(plan, options.seed, static_cast<uint32_t>(at.next_pass),
-                                      static_cast<uint32_t>(step), unit_rays));
-    if (!ran.ok()) return ran.status();
-    result = *std::move(ran);
-  }
-  whole ? ledger.BookSolution(plan, result) : ledger.Book(plan, result);
-  sightings.Add(result.sightings);
-  at.rays += result.rays;
-  at.cpu_seconds += result.cpu_seconds;
-  at.last_step = step++;
-  const double unsent = ledger.unsent_total_lm();
-  at.unsent_fraction = unsent / ledger.emitted_total_lm();
-  if (absl::Status status = CheckAbsorption(plan, result, ledger); !status.ok()) return status;
-  return unsent > options.unsent_tolerance * ledger.emitted_total_lm();
-}
-
 absl::Status Solver::State::RunOnePass(StepExecutor& executor,
                                        const std::function<void(const Progress&)>& on_step) {
-  if (absl::Status status = Weigh(); !status.ok()) return status;
-  FluxLedger ledger(*patches);
-  const double first_rays =
-      std::max(1.0, static_cast<double>(at.pass_rays) / at.rays_per_first_ray);
-  const double flux_per_ray = ledger.emitted_total_lm() / first_rays;
+  if (absl::Status status = Prepare(); !status.ok()) return status;
+  const Ambient::Before before = Before();
+  Pass pass({*patches, options, weights, light_groups, before, sightings}, at.next_pass,
+            at.pass_rays, at.rays_per_first_ray);
   const int64_t rays_before = at.rays;
-  int64_t first_step_rays = 0;
-  step = 0;
-  steps_without_loss = 0;
+  const double cpu_before = at.cpu_seconds;
+  // A first pass that was begun is better than nothing.
+  const auto stop_here = [&] {
+    if (replicates.passes() == 0 && pass.rays() > 0) replicates.Add(pass.ledger(), at.pass_rays);
+  };
   bool more = true;
   while (more) {
-    absl::StatusOr<bool> stepped = RunStep(executor, flux_per_ray, ledger);
-    const int64_t pass_rays = at.rays - rays_before;
+    const absl::StatusOr<bool> stepped = pass.Step(executor);
+    at.rays = rays_before + pass.rays();
+    at.cpu_seconds = cpu_before + pass.cpu_seconds();
+    at.unsent_fraction = pass.unsent_fraction();
+    at.last_step = pass.steps() - 1;
     if (!stepped.ok()) {
-      // Cancelled: a first pass that was begun is better than nothing.
-      if (replicates.passes() == 0 && pass_rays > 0) replicates.Add(ledger, pass_rays);
+      stop_here();
       return stepped.status();
     }
     more = *stepped;
-    if (step == 1) first_step_rays = pass_rays;
     if (on_step) on_step(CurrentProgress());
     if (more && TimeIsOut()) {
       at.stop = StopReason::kTimeSpent;
-      if (replicates.passes() == 0 && pass_rays > 0) replicates.Add(ledger, pass_rays);
+      stop_here();
       return absl::OkStatus();
     }
-    if (more && step >= options.max_steps) {
-      return MakeError(absl::StatusCode::kResourceExhausted,
-                       {"STEPS_EXHAUSTED", "pass " + std::to_string(at.next_pass),
-                        "flux is still unsent after " + std::to_string(step) + " steps",
-                        "lower the reflectances or raise the tolerance of unsent flux"});
-    }
   }
-  KeepPass(ledger, at.rays - rays_before, first_step_rays);
+  KeepPass(pass);
   return absl::OkStatus();
 }
 
-void Solver::State::KeepPass(const FluxLedger& ledger, int64_t pass_rays, int64_t first_step_rays) {
-  if (pass_rays > 0) replicates.Add(ledger, pass_rays);
-  if (first_step_rays > 0) {
-    at.rays_per_first_ray = static_cast<double>(pass_rays) / static_cast<double>(first_step_rays);
+Ambient::Before Solver::State::Before() const {
+  Ambient::Before before;
+  if (light_groups.empty() || replicates.passes() == 0) return before;
+  before.flux_lm = replicates.Mean().radiosity_lm_per_m2;
+  for (PatchIndex i = 0; i < patches->size(); ++i) {
+    before.flux_lm[i] = before.flux_lm[i] * patches->area_m2[i];
   }
+  before.rays = at.rays;
+  return before;
+}
+
+void Solver::State::KeepPass(const Pass& pass) {
+  // Weighted by the rays that were wanted: those that it took depend on what it found.
+  if (pass.rays() > 0) replicates.Add(pass.ledger(), at.pass_rays);
+  if (pass.rays_per_first_ray() > 0) at.rays_per_first_ray = pass.rays_per_first_ray();
   ++at.next_pass;
   EstimateError();
   DecideNext();

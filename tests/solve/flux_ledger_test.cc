@@ -58,7 +58,7 @@ TEST(FluxLedger, BooksAStepByHand) {
   result.deposits = {{2, 2, 2, 1, lit}};
   result.shot = {4, 4, 4};
   result.escaped = {2, 2, 2};
-  ledger.Book(plan, result);
+  ledger.Book(ledger.unsent(), plan, result);
   EXPECT_EQ(ledger.arrived_lm()[lit], (Rgb{0.5, 0.5, 0.5}));
   EXPECT_EQ(ledger.hits()[lit], 1);
   EXPECT_EQ(ledger.unsent(), (std::vector<UnsentFlux>{{lit, {0.25, 0.25, 0.25}}}));
@@ -68,6 +68,39 @@ TEST(FluxLedger, BooksAStepByHand) {
   EXPECT_DOUBLE_EQ(balance.escaped.g, 0.5);
   EXPECT_DOUBLE_EQ(balance.unsent.g, 0.25);
   EXPECT_NEAR(balance.residual.g, before.emitted_total_lm() / 3 - 1, 1e-12);
+}
+
+TEST(FluxLedger, TakesBackWhatWasShotTooMuchOf) {
+  const PatchSet patches = PatchesOf(MakeFurnace(0.5));
+  FluxLedger ledger(patches);
+  const FluxLedger before = ledger;
+  EXPECT_FALSE(ledger.owes());
+  ledger.Add({{3, {-4, -4, -4}}, {7, {1, 0, 0}}});
+  EXPECT_TRUE(ledger.owes());
+  const double emitted = before.unsent()[3].flux_lm.r;
+  const Rgb left = Rgb{emitted, emitted, emitted} - Rgb{4, 4, 4};
+  EXPECT_EQ(ledger.unsent()[3], (UnsentFlux{3, left}));
+  EXPECT_EQ(OfSign(ledger.unsent(), -1), (std::vector<UnsentFlux>{{3, left * -1.0}}));
+  EXPECT_EQ(OfSign(ledger.unsent(), 1).size(), ledger.unsent().size() - 1);
+
+  // Half of what patch 3 owes is shot and arrives at patch 5: it arrives there as a loss.
+  StepPlan plan;
+  plan.quantum_lm = {0.5, 0.5, 0.5};
+  UnitResult result;
+  result.deposits = {{1, 1, 1, 1, 5}};
+  result.shot = {1, 1, 1};
+  ledger.Book({{3, left * -0.5}}, plan, result, -1);
+  EXPECT_EQ(ledger.arrived_lm()[5], (Rgb{-0.5, -0.5, -0.5}));
+  EXPECT_DOUBLE_EQ(ledger.unsent()[3].flux_lm.g, left.g / 2);
+  EXPECT_DOUBLE_EQ(ledger.unsent()[5].flux_lm.g, emitted - 0.25);
+  const Ledger b = ledger.Balance();
+  EXPECT_DOUBLE_EQ(b.absorbed.b, -0.25);
+  // What was added is still owed.
+  EXPECT_NEAR(b.absorbed.b + b.escaped.b + b.unsent.b + b.residual.b, b.emitted.b - 4, 1e-12);
+}
+
+TEST(Scaled, ScalesEveryChannel) {
+  EXPECT_EQ(Scaled({{1, {1, -2, 3}}}, -2), (std::vector<UnsentFlux>{{1, {-2, 4, -6}}}));
 }
 
 // Steps of a Cornell box that is open in front, with the losses of roulette and of cosine weights.
@@ -88,7 +121,7 @@ TEST(FluxLedger, BalancesAfterEveryStepInEveryChannel) {
       for (const WorkUnit& unit : CutIntoUnits(plan, 1, 0, step, 1000)) {
         MergeResult(*shooter->Run(unit), merged);
       }
-      ledger.Book(plan, merged);
+      ledger.Book(ledger.unsent(), plan, merged);
       const Ledger b = ledger.Balance();
       for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(b.absorbed[c] + b.escaped[c] + b.unsent[c] + b.residual[c], b.emitted[c],

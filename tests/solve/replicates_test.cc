@@ -27,7 +27,7 @@ FluxLedger RandomPass(const PatchSet& patches, TestRandom& random) {
     const Deposit& d = result.deposits.back();
     result.shot = {result.shot[0] + d.r, result.shot[1] + d.g, result.shot[2] + d.b};
   }
-  ledger.Book(plan, result);
+  ledger.Book(ledger.unsent(), plan, result);
   return ledger;
 }
 
