@@ -99,29 +99,33 @@ std::string BenchText(const BenchResult& result) {
   size_t width = 6;
   for (const BenchSummary& s : result.summaries) width = std::max(width, s.method.size());
   std::string text = BenchHeadline(result) + "\n";
-  text += fmt::format("{:<{}} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>17} {:>19} {:>6} {:>7} {:>7}\n",
-                      "method", width, "rays", "CPU s", "rms area", "rms patch", "rms local", "p95",
-                      "power bias", "mean z2", "est.", "per ray", "per CPU");
+  text +=
+      fmt::format("{:<{}} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>17} {:>19} {:>6} {:>7} {:>7}\n",
+                  "method", width, "rays", "CPU s", "rms area", "rms patch", "rms local", "p95",
+                  "power bias", "mean z2", "est.", "per ray", "per CPU");
   std::string budget;
   for (const BenchSummary& s : result.summaries) {
     if (!budget.empty() && s.budget != budget) text += "\n";
     budget = s.budget;
     text += fmt::format(
-        "{:<{}} {:>10.0f} {:>8.3g} {:>9} {:>9} {:>9} {:>9} {:>17} {:>19} {:>6} {:>7} {:>7}\n", s.method,
-        width, s.rays, s.cpu_seconds, Percent(s.measures.rms_area), Percent(s.measures.rms_patch),
-        Percent(s.measures.rms_local), Percent(s.measures.p95), Bias(s), MeanZ2(s.agreement),
-        Factor(s.estimated_over_true), Factor(s.per_ray_area), Factor(s.per_cpu_area));
+        "{:<{}} {:>10.0f} {:>8.3g} {:>9} {:>9} {:>9} {:>9} {:>17} {:>19} {:>6} {:>7} {:>7}\n",
+        s.method, width, s.rays, s.cpu_seconds, Percent(s.measures.rms_area),
+        Percent(s.measures.rms_patch), Percent(s.measures.rms_local), Percent(s.measures.p95),
+        Bias(s), MeanZ2(s.agreement), Factor(s.estimated_over_true), Factor(s.per_ray_area),
+        Factor(s.per_cpu_area));
   }
   for (const LeftOut& out : result.left_out) {
     text += "left out: " + out.label + ": " + out.why + "\n";
   }
   if (result.summaries.empty()) return text;
-  return text + fmt::format(
-                    "mean z2: of the seeds' mean against the reference, and in brackets of each seed against "
-                    "the others, mean +- standard deviation: within 3 of those there is no sign of "
-                    "bias. est.: estimated over true rms area. per ray, per CPU: how many times the "
-                    "rays, or CPU time, of this {} takes for the same rms area.\n",
-                    result.summaries.front().method);
+  return text +
+         fmt::format(
+             "mean z2: of the seeds' mean against the reference, and in brackets of each seed "
+             "against "
+             "the others, mean +- standard deviation: within 3 of those there is no sign of "
+             "bias. est.: estimated over true rms area. per ray, per CPU: how many times the "
+             "rays, or CPU time, of this {} takes for the same rms area.\n",
+             result.summaries.front().method);
 }
 
 Json BenchJson(const Options& options, const BenchResult& result) {

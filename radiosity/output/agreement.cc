@@ -60,8 +60,7 @@ void JudgeByEachOther(const std::vector<double>& z2, Agreement& agreement) {
 absl::StatusOr<Deviations> DeviationsFrom(const PatchTable& table, const PatchTable& reference) {
   const absl::StatusOr<std::vector<PatchIndex>> partner = PairPatches(table, reference);
   if (!partner.ok()) return partner.status();
-  Deviations deviations{std::vector<float>(reference.size()),
-                        std::vector<float>(reference.size())};
+  Deviations deviations{std::vector<float>(reference.size()), std::vector<float>(reference.size())};
   for (PatchIndex i = 0; i < table.size(); ++i) {
     const PatchIndex r = (*partner)[i];
     deviations.difference[r] = static_cast<float>(table.radiosity_lm_per_m2[i][kGreen] -

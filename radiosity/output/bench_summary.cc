@@ -159,7 +159,8 @@ std::string EncodeSummaryCsv(const std::vector<BenchSummary>& summaries) {
   std::string text =
       "method,budget,seeds,rays,seconds,cpu_seconds,setup_seconds,peak_rss_bytes,"
       "planned_worker_bytes,rms_area,rms_patch,rms_local,p95,power_bias,power_bias_se,"
-      "z2_patches,mean_z2,null_z2,null_z2_sd,estimated_rms_area,estimated_over_true,per_ray_area,per_ray_patch,per_cpu_area,"
+      "z2_patches,mean_z2,null_z2,null_z2_sd,estimated_rms_area,estimated_over_true,per_ray_area,"
+      "per_ray_patch,per_cpu_area,"
       "per_cpu_patch\n";
   for (const BenchSummary& s : summaries) {
     text += s.method + "," + s.budget + ",";
