@@ -256,8 +256,8 @@ absl::Status Bench::RunOne(size_t entry, const BenchBudget& budget, uint64_t see
   auto finished = jobs_.Run(scene_, options_.patch, solve, measure);
   if (!finished.ok()) return finished.status();
   result_.runs.push_back({label, BudgetText(budget), seed, finished->job.snapshot_progress,
-                          measures, std::move(deviations), finished->setup_s, finished->job.plan.worker_bytes,
-                          finished->peak_rss_bytes});
+                          measures, std::move(deviations), finished->setup_s,
+                          finished->job.plan.worker_bytes, finished->peak_rss_bytes});
   const BenchBudget smallest = *std::min_element(
       budgets_.begin(), budgets_.end(), [](const BenchBudget& a, const BenchBudget& b) {
         return std::tie(a.rays, a.seconds) < std::tie(b.rays, b.seconds);
