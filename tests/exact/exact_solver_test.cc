@@ -12,8 +12,8 @@ namespace lambert {
 namespace {
 
 // A leg that stands on a floor exchanges next to nothing with most of it. Where the pilot saw no
-// occluder such a pair expects few samples, and one of them counts by the inverse of that: where
-// the two all but touch it once was a patch's whole light.
+// occluder such a pair expects few samples, and one of them counts by the inverse of that: more
+// than a patch's whole light where the two all but touch.
 TEST(ExactSolver, NoSampleOfAPairOutweighsItsPatches) {
   const PatchSet patches = PatchesOf(MakeOffice(1));
   const auto scene = RayScene::Create(patches);
@@ -35,9 +35,9 @@ TEST(ExactSolver, NoSampleOfAPairOutweighsItsPatches) {
       worst = std::max(worst, std::abs(off) / area);
     }
   }
-  // A sample has a tenth of a ray at least, and the kernel of a pair that meets is a half of the
-  // smaller area at nearly all its points: 10 / 2.
-  EXPECT_LT(worst, 5);
+  // No more than a sample of twice the patch's light. Without the least share of the samples that
+  // every pair has it is 10, without that of pairs which all but touch 2.8.
+  EXPECT_LT(worst, 2);
   EXPECT_GT(worst, 0);
 }
 
