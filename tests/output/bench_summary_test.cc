@@ -58,7 +58,7 @@ TEST(BenchSummary, ErrorsAreSquaredThenAveragedThenRooted) {
 TEST(BenchSummary, EfficiencyIsRelativeToTheFirstMethodAtTheSameBudget) {
   const auto summaries =
       SummariesOf({RunOf("pmcr", "1", 1, 4, 100, 1), RunOf("phs", "1", 1, 2, 100, 8),
-                     RunOf("pmcr", "2", 1, 2, 400, 4), RunOf("phs", "2", 1, 1, 200, 4)});
+                   RunOf("pmcr", "2", 1, 2, 400, 4), RunOf("phs", "2", 1, 1, 200, 4)});
   ASSERT_EQ(summaries.size(), 4u);
   EXPECT_EQ(summaries[1].method, "phs");
   EXPECT_DOUBLE_EQ(*summaries[0].per_ray_area, 1);
@@ -87,7 +87,8 @@ TEST(BenchSummary, TheTableHasOneLineEachAndEveryColumn) {
       SummariesOf({RunOf("pmcr", "1", 1, 4, 1000, 1), RunOf("phs", "1", 1, 2, 1000, 8)}));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 3 * 24);
-  EXPECT_NE(csv.find("\nphs,1,1,1000,0,8,0,,0,2,4,,2,0,,1,1,,,1,0.5,4,4,0.5,0.5\n"), std::string::npos)
+  EXPECT_NE(csv.find("\nphs,1,1,1000,0,8,0,,0,2,4,,2,0,,1,1,,,1,0.5,4,4,0.5,0.5\n"),
+            std::string::npos)
       << csv;
 }
 
