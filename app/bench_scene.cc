@@ -241,19 +241,23 @@ absl::Status Bench::RunOne(size_t entry, const BenchBudget& budget, uint64_t see
   printer_.Stage(fmt::format("run {} of {}: {}, {}, seed {}", done_, all, label,
                              BudgetForPeople(budget), seed));
   ErrorMeasures measures;
+  Deviations deviations;
   const auto measure = [&](const Snapshot& snapshot) -> absl::Status {
-    auto measured = Compare(MakePatchTable(*result_.patches, *snapshot.solution),
-                            result_.reference.table, result_.region_nodes);
+    const PatchTable table = MakePatchTable(*result_.patches, *snapshot.solution);
+    auto measured = Compare(table, result_.reference.table, result_.region_nodes);
     if (!measured.ok()) return measured.status();
+    auto deviating = DeviationsFrom(table, result_.reference.table);
+    if (!deviating.ok()) return deviating.status();
     measures = *measured;
+    deviations = *std::move(deviating);
     return log_->Append({label, seed, snapshot.progress, measures});
   };
   const SolveOptions solve = WithBudget(result_.entries[entry].solve, budget, seed);
   auto finished = jobs_.Run(scene_, options_.patch, solve, measure);
   if (!finished.ok()) return finished.status();
   result_.runs.push_back({label, BudgetText(budget), seed, finished->job.snapshot_progress,
-                          measures, finished->setup_s, finished->job.plan.worker_bytes,
-                          finished->peak_rss_bytes});
+                          measures, std::move(deviations), finished->setup_s,
+                          finished->job.plan.worker_bytes, finished->peak_rss_bytes});
   const BenchBudget smallest = *std::min_element(
       budgets_.begin(), budgets_.end(), [](const BenchBudget& a, const BenchBudget& b) {
         return std::tie(a.rays, a.seconds) < std::tie(b.rays, b.seconds);
@@ -272,7 +276,7 @@ absl::Status Bench::Finish() {
     result_.entries.erase(result_.entries.begin() + static_cast<std::ptrdiff_t>(entry));
     result_.pictured.erase(result_.pictured.begin() + static_cast<std::ptrdiff_t>(entry));
   }
-  result_.summaries = SummarizeRuns(result_.runs);
+  result_.summaries = SummarizeRuns(result_.runs, result_.reference.table);
   return WriteOutputFile(result_.folder + "/summary.csv", EncodeSummaryCsv(result_.summaries));
 }
 

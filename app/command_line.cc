@@ -261,17 +261,25 @@ void Parser::WarnOfEffectless(const std::vector<std::string>& options, const std
   }
 }
 
+// What `method` does not look at.
+std::vector<std::string> SettingsWithoutEffect(Method method) {
+  if (method == Method::kAuto) return {};
+  if (method == Method::kImportance) return {"phs-rule", "phs-metric", "allocation"};
+  std::vector<std::string> names;
+  if (method == Method::kExact) names = {"sequence", "allocation"};
+  for (const ShootSetting& setting : ShootSettings()) {
+    const bool is_of_pyramids = std::string(setting.name).starts_with("phs-");
+    if (is_of_pyramids && !UsesPyramids(method)) names.push_back(setting.name);
+  }
+  return names;
+}
+
 std::vector<std::string> Parser::Warnings() const {
   const Options& options = draft_.options;
   std::vector<std::string> warnings;
   const Method method = options.solve.shoot.method;
-  if (method != Method::kAuto && !UsesPyramids(method)) {
-    std::vector<std::string> names;
-    for (const ShootSetting& setting : ShootSettings()) {
-      if (std::string(setting.name).starts_with("phs-")) names.push_back(setting.name);
-    }
-    WarnOfEffectless(names, fmt::format("with --method {}", MethodName(method)), warnings);
-  }
+  WarnOfEffectless(SettingsWithoutEffect(method),
+                   fmt::format("with --method {}", MethodName(method)), warnings);
   if (!options.server.empty()) {
     WarnOfEffectless({"workers", "threads"},
                      "with --server: work is done by the lambert-workers that serve it", warnings);

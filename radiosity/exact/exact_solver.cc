@@ -10,8 +10,9 @@ namespace {
 
 // Links of patches that reflect nothing still get samples: their irradiance is reported.
 constexpr double kLeastReflectance = 0.05;
-// No link's weight is under this share of the mean: each must have a chance of a sample.
-constexpr double kLeastWeight = 1e-3;
+// No link's weight is under this share of the mean. What the pilot did not see may be large, and a
+// sample counts by the inverse of its chance: at a tenth of the rays none counts by much.
+constexpr double kLeastWeight = 0.1;
 
 std::vector<double> MeanReflectance(const PatchSet& patches) {
   std::vector<double> mean;

@@ -14,6 +14,8 @@ constexpr int kPilotSamples = 16;
 // Standard deviation, as a share of the whole, of a link whose pilot saw no difference: few of them
 // are mixed, but there are many.
 constexpr double kLeastSpread = 0.03;
+// The same of a pair that all but touches: what is blocked there may weigh many times the whole.
+constexpr double kLeastSpreadNear = 0.3;
 
 // The numbers of one link: the same for all its samples.
 std::array<float, 4> Shift(const Link& link, uint64_t seed, uint32_t pass, RandomPurpose purpose) {
@@ -36,7 +38,7 @@ void SetGuess(const std::vector<Segments::Segment>& segments, const std::vector<
     const double deviation = segments[k].weight * ((visible[k] ? 1 : 0) - link.control);
     squares += deviation * deviation;
   }
-  const double least = kLeastSpread * whole;
+  const double least = (near ? kLeastSpreadNear : kLeastSpread) * whole;
   link.spread =
       static_cast<float>(std::sqrt(squares / static_cast<double>(segments.size()) + least * least));
 }

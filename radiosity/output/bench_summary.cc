@@ -71,7 +71,13 @@ ErrorMeasures SummarizeMeasures(const Runs& runs) {
   return measures;
 }
 
-BenchSummary Summarize(const Runs& runs) {
+std::optional<Agreement> AgreementOf(const Runs& runs, double rays, const PatchTable& reference) {
+  std::vector<const Deviations*> deviations;
+  for (const BenchRun* run : runs) deviations.push_back(&run->deviations);
+  return Agree(deviations, rays, reference);
+}
+
+BenchSummary Summarize(const Runs& runs, const PatchTable& reference) {
   BenchSummary summary;
   summary.method = runs.front()->method;
   summary.budget = runs.front()->budget;
@@ -90,6 +96,7 @@ BenchSummary Summarize(const Runs& runs) {
   summary.measures = SummarizeMeasures(runs);
   summary.power_bias_se =
       StandardError(runs, [](const BenchRun& r) { return r.measures.power_bias; });
+  summary.agreement = AgreementOf(runs, summary.rays * summary.seeds, reference);
   summary.estimated_rms_area = RootMeanSquare(runs, Estimate);
   summary.estimated_over_true = Ratio(summary.estimated_rms_area, summary.measures.rms_area);
   return summary;
@@ -113,9 +120,23 @@ void AppendCell(const std::optional<Number>& value, std::string& text) {
   if (value) AppendNumber(*value, text);
 }
 
+void AppendAgreement(const std::optional<Agreement>& agreement, std::string& text) {
+  if (!agreement) {
+    text += ",,,,";
+    return;
+  }
+  text.push_back(',');
+  AppendNumber(agreement->patches, text);
+  text.push_back(',');
+  AppendNumber(agreement->mean_z2, text);
+  AppendCell(agreement->null_z2, text);
+  AppendCell(agreement->null_z2_sd, text);
+}
+
 }  // namespace
 
-std::vector<BenchSummary> SummarizeRuns(const std::vector<BenchRun>& runs) {
+std::vector<BenchSummary> SummarizeRuns(const std::vector<BenchRun>& runs,
+                                        const PatchTable& reference) {
   std::vector<std::pair<std::string, std::string>> order;
   std::map<std::pair<std::string, std::string>, Runs> groups;
   for (const BenchRun& run : runs) {
@@ -124,7 +145,7 @@ std::vector<BenchSummary> SummarizeRuns(const std::vector<BenchRun>& runs) {
     group.push_back(&run);
   }
   std::vector<BenchSummary> summaries;
-  for (const auto& key : order) summaries.push_back(Summarize(groups.at(key)));
+  for (const auto& key : order) summaries.push_back(Summarize(groups.at(key), reference));
   for (BenchSummary& summary : summaries) {
     const auto first =
         std::find_if(summaries.begin(), summaries.end(),
@@ -138,7 +159,8 @@ std::string EncodeSummaryCsv(const std::vector<BenchSummary>& summaries) {
   std::string text =
       "method,budget,seeds,rays,seconds,cpu_seconds,setup_seconds,peak_rss_bytes,"
       "planned_worker_bytes,rms_area,rms_patch,rms_local,p95,power_bias,power_bias_se,"
-      "estimated_rms_area,estimated_over_true,per_ray_area,per_ray_patch,per_cpu_area,"
+      "z2_patches,mean_z2,null_z2,null_z2_sd,estimated_rms_area,estimated_over_true,per_ray_area,"
+      "per_ray_patch,per_cpu_area,"
       "per_cpu_patch\n";
   for (const BenchSummary& s : summaries) {
     text += s.method + "," + s.budget + ",";
@@ -152,8 +174,12 @@ std::string EncodeSummaryCsv(const std::vector<BenchSummary>& summaries) {
     AppendNumber(s.planned_worker_bytes, text);
     const ErrorMeasures& m = s.measures;
     for (const std::optional<double>& value :
-         {m.rms_area, m.rms_patch, m.rms_local, m.p95, m.power_bias, s.power_bias_se,
-          s.estimated_rms_area, s.estimated_over_true, s.per_ray_area, s.per_ray_patch,
+         {m.rms_area, m.rms_patch, m.rms_local, m.p95, m.power_bias, s.power_bias_se}) {
+      AppendCell(value, text);
+    }
+    AppendAgreement(s.agreement, text);
+    for (const std::optional<double>& value :
+         {s.estimated_rms_area, s.estimated_over_true, s.per_ray_area, s.per_ray_patch,
           s.per_cpu_area, s.per_cpu_patch}) {
       AppendCell(value, text);
     }

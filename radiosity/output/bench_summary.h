@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "radiosity/output/agreement.h"
 #include "radiosity/output/compare.h"
 #include "radiosity/solve/solution.h"
 
@@ -18,6 +19,7 @@ struct BenchRun {
   uint64_t seed = 0;
   Progress progress;                      // at its end
   ErrorMeasures measures;                 // of its last snapshot
+  Deviations deviations;                  // of the same
   double setup_s = 0;                     // from asking for the job to its first rays, seconds
   int64_t planned_worker_bytes = 0;       // what the plan says that one worker takes
   std::optional<int64_t> peak_rss_bytes;  // of this process during the run, where all is in it
@@ -33,6 +35,7 @@ struct BenchSummary {
   // rms_*: root of the mean square. p95 and power_bias: means.
   ErrorMeasures measures;
   std::optional<double> power_bias_se;        // standard error of that mean; with two seeds or more
+  std::optional<Agreement> agreement;         // empty where no patch has enough hits
   std::optional<double> estimated_rms_area;   // root of the mean square of the runs' own estimates
   std::optional<double> estimated_over_true;  // that over measures.rms_area
   // How many times less this method needs for the same error than the first method at this budget:
@@ -41,8 +44,9 @@ struct BenchSummary {
 };
 
 // One for each method and budget, in the order in which they first appear. A measure that one seed
-// lacks is empty.
-std::vector<BenchSummary> SummarizeRuns(const std::vector<BenchRun>& runs);
+// lacks is empty. Requires: all deviations are from `reference`.
+std::vector<BenchSummary> SummarizeRuns(const std::vector<BenchRun>& runs,
+                                        const PatchTable& reference);
 
 // summary.csv (docs/formats.md).
 std::string EncodeSummaryCsv(const std::vector<BenchSummary>& summaries);

@@ -3,14 +3,13 @@
 
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
 
 #include "radiosity/scene/load_gltf.h"
-#include "radiosity/shoot/settings.h"
 #include "tests/analytic/gather.h"
+#include "tests/analytic/methods.h"
 #include "tests/analytic/seeds.h"
 #include "tests/support/scenes.h"
 
@@ -90,35 +89,6 @@ void ExpectAllAgree(const PatchSet& patches, int walks, int64_t rays) {
   ExpectAgreement(phs, gather, "phs and gather");
 }
 
-// A method with settings, as `lambert bench` writes them.
-struct Entry {
-  const char* name;
-  Method method;
-  std::map<std::string, std::string> settings;
-};
-
-std::vector<Entry> Entries() {
-  return {{"mcr", Method::kMcr, {}},
-          {"pmcr of Sobol points", Method::kPmcr, {{"sequence", "sobol"}}},
-          {"pmcr, rays by variance", Method::kPmcr, {{"allocation", "variance"}}},
-          {"hs97", Method::kHs97, {{"phs-probes", "1"}}},
-          {"hs98", Method::kHs98, {}},
-          {"hs98 by variance, squares",
-           Method::kHs98,
-           {{"phs-rule", "variance"}, {"phs-cells", "squares"}, {"phs-alpha1", "0.1"}}},
-          {"phs by variance, squares of Sobol points",
-           Method::kPhs,
-           {{"phs-rule", "variance"},
-            {"phs-cells", "squares"},
-            {"phs-metric", "1"},
-            {"phs-alpha1", "0.1"},
-            {"sequence", "sobol"}}},
-          {"phs-alpha", Method::kPhsAlpha, {}},
-          {"phs-alpha with the unseen", Method::kPhsAlpha, {{"phs-count-unseen", "yes"}}},
-          {"phs-adaptive", Method::kPhsAdaptive, {{"phs-leaves", "16"}, {"phs-depth", "3"}}},
-          {"importance", Method::kImportance, {}}};
-}
-
 // Every method is unbiased: patch by patch, and in its power, against another method.
 TEST(Agreement, OfEveryMethodWithExactOnACornellBox) {
   const PatchSet patches = PatchesOf(MakeCornell(3));
@@ -127,12 +97,8 @@ TEST(Agreement, OfEveryMethodWithExactOnACornellBox) {
       Summarize(patches, SolveSeeds(patches, WithRays(Method::kExact, 4 * kRays), kSeeds, 300));
   exact.hits.assign(patches.size(), kMinHits);
   uint64_t seed = 1000;
-  for (const Entry& entry : Entries()) {
-    SolveOptions options = WithRays(entry.method, kRays);
-    for (const auto& [name, text] : entry.settings) {
-      ASSERT_TRUE(ApplySetting(name, text, options.shoot).ok()) << name;
-    }
-    if (entry.method == Method::kImportance) options.shoot.region = {"0"};
+  for (const MethodCase& entry : EveryShootingMethod()) {
+    const SolveOptions options = OptionsOf(entry, kRays);
     const ByPatch found = Summarize(patches, SolveSeeds(patches, options, kSeeds, seed += 100));
     ExpectAgreement(found, exact, entry.name);
     EXPECT_NEAR(Power(patches, found) / Power(patches, exact), 1, 0.003) << entry.name;

@@ -26,6 +26,7 @@ TEST_F(BenchTest, TwoMethodsTwoSeedsTwoBudgetsLeaveEveryFile) {
   EXPECT_EQ(ran.error, "");
   EXPECT_NE(ran.output.find("phs:depth=1"), std::string::npos) << ran.output;
   EXPECT_NE(ran.output.find("residual"), std::string::npos) << ran.output;
+  EXPECT_NE(ran.output.find("mean z2"), std::string::npos) << ran.output;
   for (const char* file : {"reference.csv", "summary.csv", "convergence.csv", "run.json",
                            "pictures/methods.png", "pictures/phs_depth_1_detail.png"}) {
     EXPECT_GT(Read(std::string("deep/out/") + file).size(), 100u) << file;
@@ -39,6 +40,12 @@ TEST_F(BenchTest, TwoMethodsTwoSeedsTwoBudgetsLeaveEveryFile) {
   const std::string summary = Read("deep/out/summary.csv");
   EXPECT_EQ(std::count(summary.begin(), summary.end(), '\n'), 1 + 2 * 2) << summary;
   EXPECT_NE(summary.find("\nphs:depth=1,20000,2,"), std::string::npos) << summary;
+  for (const Json& line : Json::parse(Read("deep/out/run.json"))["summary"]) {
+    // Two seeds hit only some patches often enough.
+    if (line["z2_patches"].is_null()) continue;
+    EXPECT_GT(line["mean_z2"], 0);
+    EXPECT_GT(line["null_z2_sd"], 0);
+  }
   const std::string convergence = Read("deep/out/convergence.csv");
   EXPECT_EQ(convergence.find("method,seed,pass,step,rays,"), 0u);
   EXPECT_NE(convergence.find("\nphs:depth=1,2,"), std::string::npos);

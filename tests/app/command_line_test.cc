@@ -207,5 +207,30 @@ TEST(CommandLine, AFlagWithoutEffectIsWarnedOf) {
   EXPECT_NE(parsed->warnings[2].find("--region"), std::string::npos);
 }
 
+TEST(CommandLine, WhatAMethodDoesNotLookAtIsWarnedOf) {
+  const auto warnings = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"bake", "room.glb", "-o", "out", "--region", "0"});
+    const auto parsed = Parse(more);
+    EXPECT_TRUE(parsed.ok()) << parsed.status();
+    std::string all;
+    for (const std::string& warning : parsed->warnings) all += warning + "\n";
+    return all;
+  };
+  EXPECT_EQ(warnings({"--method", "importance", "--phs-rule", "variance", "--phs-metric", "1",
+                      "--allocation", "variance", "--phs-depth", "1", "--sequence", "sobol"}),
+            "warning: --phs-rule has no effect with --method importance\n"
+            "warning: --phs-metric has no effect with --method importance\n"
+            "warning: --allocation has no effect with --method importance\n");
+  const std::string exact = warnings({"--method", "exact", "--reference", "r.csv", "--sequence",
+                                      "sobol", "--allocation", "variance", "--phs-rule", "count"});
+  EXPECT_EQ(exact,
+            "warning: --sequence has no effect with --method exact\n"
+            "warning: --allocation has no effect with --method exact\n"
+            "warning: --phs-rule has no effect with --method exact\n");
+  EXPECT_EQ(warnings({"--method", "pmcr", "--reference", "r.csv", "--sequence", "sobol",
+                      "--allocation", "variance"}),
+            "");
+}
+
 }  // namespace
 }  // namespace lambert::app

@@ -18,12 +18,27 @@ BenchRun RunOf(const std::string& method, const std::string& budget, uint64_t se
   run.progress.cpu_seconds = cpu_seconds;
   run.progress.estimated_rms_area = error / 2;
   run.measures = {error, 2 * error, std::nullopt, error, error - 2};
+  run.deviations = {{static_cast<float>(error)}, {4}};
   return run;
+}
+
+// One lit patch.
+PatchTable Reference() {
+  PatchTable table;
+  table.source.resize(1);
+  table.area_m2 = {1};
+  table.radiosity_lm_per_m2 = table.irradiance_lx = {{1, 1, 1}};
+  table.std_error_lm_per_m2.resize(1);
+  return table;
+}
+
+std::vector<BenchSummary> SummariesOf(const std::vector<BenchRun>& runs) {
+  return SummarizeRuns(runs, Reference());
 }
 
 TEST(BenchSummary, ErrorsAreSquaredThenAveragedThenRooted) {
   const auto summaries =
-      SummarizeRuns({RunOf("pmcr", "100", 1, 1, 90, 2), RunOf("pmcr", "100", 2, 7, 110, 4)});
+      SummariesOf({RunOf("pmcr", "100", 1, 1, 90, 2), RunOf("pmcr", "100", 2, 7, 110, 4)});
   ASSERT_EQ(summaries.size(), 1u);
   const BenchSummary& s = summaries[0];
   EXPECT_EQ(s.seeds, 2);
@@ -37,12 +52,13 @@ TEST(BenchSummary, ErrorsAreSquaredThenAveragedThenRooted) {
   EXPECT_DOUBLE_EQ(*s.power_bias_se, 3);  // of -1 and 5: sqrt((9 + 9) / (2 * 1)) = 3 = sd / sqrt(2)
   EXPECT_DOUBLE_EQ(*s.estimated_rms_area, 2.5);
   EXPECT_DOUBLE_EQ(*s.estimated_over_true, 0.5);
+  EXPECT_FALSE(s.agreement) << "200 rays are too few hits";
 }
 
 TEST(BenchSummary, EfficiencyIsRelativeToTheFirstMethodAtTheSameBudget) {
   const auto summaries =
-      SummarizeRuns({RunOf("pmcr", "1", 1, 4, 100, 1), RunOf("phs", "1", 1, 2, 100, 8),
-                     RunOf("pmcr", "2", 1, 2, 400, 4), RunOf("phs", "2", 1, 1, 200, 4)});
+      SummariesOf({RunOf("pmcr", "1", 1, 4, 100, 1), RunOf("phs", "1", 1, 2, 100, 8),
+                   RunOf("pmcr", "2", 1, 2, 400, 4), RunOf("phs", "2", 1, 1, 200, 4)});
   ASSERT_EQ(summaries.size(), 4u);
   EXPECT_EQ(summaries[1].method, "phs");
   EXPECT_DOUBLE_EQ(*summaries[0].per_ray_area, 1);
@@ -58,24 +74,25 @@ TEST(BenchSummary, WhatOneSeedLacksStaysEmpty) {
   runs[1].progress.estimated_rms_area = -1;
   runs[1].measures.power_bias.reset();
   runs[0].peak_rss_bytes = 7;
-  const BenchSummary s = SummarizeRuns(runs)[0];
+  const BenchSummary s = SummariesOf(runs)[0];
   EXPECT_FALSE(s.estimated_rms_area);
   EXPECT_FALSE(s.estimated_over_true);
   EXPECT_FALSE(s.power_bias_se);
   EXPECT_EQ(s.peak_rss_bytes, 7);
-  EXPECT_FALSE(SummarizeRuns({runs[0]})[0].power_bias_se) << "one seed has no spread";
+  EXPECT_FALSE(SummariesOf({runs[0]})[0].power_bias_se) << "one seed has no spread";
 }
 
 TEST(BenchSummary, TheTableHasOneLineEachAndEveryColumn) {
   const std::string csv = EncodeSummaryCsv(
-      SummarizeRuns({RunOf("pmcr", "1", 1, 4, 100, 1), RunOf("phs", "1", 1, 2, 100, 8)}));
+      SummariesOf({RunOf("pmcr", "1", 1, 4, 1000, 1), RunOf("phs", "1", 1, 2, 1000, 8)}));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 3 * 20);
-  EXPECT_NE(csv.find("\nphs,1,1,100,0,8,0,,0,2,4,,2,0,,1,0.5,4,4,0.5,0.5\n"), std::string::npos)
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 3 * 24);
+  EXPECT_NE(csv.find("\nphs,1,1,1000,0,8,0,,0,2,4,,2,0,,1,1,,,1,0.5,4,4,0.5,0.5\n"),
+            std::string::npos)
       << csv;
 }
 
-TEST(BenchSummary, NoRunsNoSummary) { EXPECT_TRUE(SummarizeRuns({}).empty()); }
+TEST(BenchSummary, NoRunsNoSummary) { EXPECT_TRUE(SummariesOf({}).empty()); }
 
 }  // namespace
 }  // namespace lambert

@@ -1,9 +1,11 @@
 #include "tests/support/scenes.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <map>
 #include <numbers>
+#include <random>
 #include <utility>
 
 namespace lambert {
@@ -136,6 +138,38 @@ Scene MakeBox(double edge_m, Rgb reflectance, const std::vector<Rgb>& per_face_l
 Scene MakeFurnace(double reflectance, double exitance_lm_per_m2, int n) {
   const double rho = reflectance, e = exitance_lm_per_m2;
   return SceneMaker().Box({}, {1, 1, 1}, true, {{{rho, rho, rho}, {e, e, e}}}, n).Make();
+}
+
+Scene MakeJitteredFurnace(double reflectance, double exitance_lm_per_m2, int n) {
+  Scene scene = MakeFurnace(reflectance, exitance_lm_per_m2, n);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> shift(-0.2f / static_cast<float>(n),
+                                              0.2f / static_cast<float>(n));
+  for (Primitive& face : scene.meshes[0].primitives) {
+    for (std::array<float, 3>& p : face.positions) {
+      // One coordinate is that of the face; with another at an end the vertex is on an edge.
+      if (std::count_if(p.begin(), p.end(), [](float x) { return x == 0 || x == 1; }) > 1) continue;
+      for (float& x : p) x += x == 0 || x == 1 ? 0 : shift(random);
+    }
+  }
+  return scene;
+}
+
+Scene MakeLShapedFurnace(double reflectance, double exitance_lm_per_m2, int n) {
+  const double rho = reflectance, e = exitance_lm_per_m2;
+  const Paint paint{{rho, rho, rho}, {e, e, e}};
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  SceneMaker maker;
+  for (const Vec3& square : {Vec3{0, 0, 0}, x, y}) {
+    maker.Quad(square, x, y, paint, n, "floor").Quad(square + z, y, x, paint, n, "ceiling");
+  }
+  // Around the floor with the room on the left.
+  Vec3 at;
+  for (const Vec3& step : {x, x, y, x * -1, y, x * -1, y * -1, y * -1}) {
+    maker.Quad(at, z, step, paint, n, "wall");
+    at = at + step;
+  }
+  return maker.Make();
 }
 
 Scene MakeParallelSquares(double reflectance_a, double reflectance_b) {

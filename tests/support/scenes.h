@@ -44,6 +44,11 @@ Scene MakeBox(double edge_m, Rgb reflectance, const std::vector<Rgb>& per_face_l
               int n = 1);
 // The unit cube facing inward where every face reflects and emits alike: B = E / (1 - rho).
 Scene MakeFurnace(double reflectance, double exitance_lm_per_m2 = 1, int n = 1);
+// The same where the vertices inside the faces are moved about by up to .2 / n: uneven triangles.
+Scene MakeJitteredFurnace(double reflectance, double exitance_lm_per_m2, int n);
+// A room of 1 m height, L-shaped: three unit squares, whose walls hide each other round the corner.
+// Walls, floor and ceiling of 1 m2 are n x n squares; all reflect and emit alike.
+Scene MakeLShapedFurnace(double reflectance, double exitance_lm_per_m2, int n);
 // Two unit squares of two triangles with the same diagonal. a lies at y = 0, faces up and emits
 // 1 lm/m2; b faces it at y = 1, or stands upright on the shared edge z = 0.
 Scene MakeParallelSquares(double reflectance_a, double reflectance_b);
