@@ -3,6 +3,24 @@
 #include <cmath>
 
 namespace lambert {
+namespace {
+
+Rgb InLumen(const Deposit& deposit, const Rgb& quantum_lm) {
+  return {static_cast<double>(deposit.r) * quantum_lm.r,
+          static_cast<double>(deposit.g) * quantum_lm.g,
+          static_cast<double>(deposit.b) * quantum_lm.b};
+}
+
+void Add(const std::vector<Deposit>& deposits, const Rgb& quantum_lm, Arrived& sum) {
+  for (const Deposit& deposit : deposits) {
+    const auto place = static_cast<size_t>(deposit.patch);
+    if (place >= sum.hits.size()) continue;  // no such element: a forged result
+    sum.flux_lm[place] = sum.flux_lm[place] + InLumen(deposit, quantum_lm);
+    sum.hits[place] += deposit.hits;
+  }
+}
+
+}  // namespace
 
 void CompensatedSum::Add(double value) {
   const double next = sum_ + value;
@@ -10,11 +28,12 @@ void CompensatedSum::Add(double value) {
   sum_ = next;
 }
 
-FluxLedger::FluxLedger(const PatchSet& patches)
+FluxLedger::FluxLedger(const PatchSet& patches, const SurfaceTree* tree)
     : patches_(patches),
+      tree_(tree),
       emitted_(EmittedFlux(patches)),
-      arrived_lm_(patches.size()),
-      hits_(patches.size()) {
+      arrived_(patches.size()),
+      rested_(tree != nullptr ? tree->place_count() : 0) {
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     AddUnsent(i, patches.exitance_lm_per_m2[i] * patches.area_m2[i]);
   }
@@ -30,14 +49,8 @@ void FluxLedger::AddUnsent(int32_t emitter, Rgb flux_lm) {
   unsent_sum_ = unsent_sum_ + flux_lm;
 }
 
-Rgb FluxLedger::Arrive(const Deposit& deposit, const Rgb& quantum_lm) {
-  const PatchIndex i = deposit.patch;
-  hits_[i] += deposit.hits;
-  const Rgb arrived{static_cast<double>(deposit.r) * quantum_lm.r,
-                    static_cast<double>(deposit.g) * quantum_lm.g,
-                    static_cast<double>(deposit.b) * quantum_lm.b};
-  arrived_lm_[i] = arrived_lm_[i] + arrived;
-  return arrived;
+std::vector<Rgb> FluxLedger::ArrivedFlux() const {
+  return tree_ != nullptr ? tree_->PushDown(rested_, arrived_) : arrived_.flux_lm;
 }
 
 void FluxLedger::Book(const StepPlan& plan, const UnitResult& result) {
@@ -47,11 +60,13 @@ void FluxLedger::Book(const StepPlan& plan, const UnitResult& result) {
   unsent_sum_ = {};
   Rgb absorbed;
   for (const Deposit& deposit : result.deposits) {
-    const Rgb arrived = Arrive(deposit, quantum);
+    const Rgb arrived = InLumen(deposit, quantum);
     const Rgb reflected = patches_.reflectance[deposit.patch] * arrived;
     absorbed = absorbed + (arrived - reflected);
     AddUnsent(deposit.patch, reflected);
   }
+  Add(result.deposits, quantum, arrived_);
+  if (tree_ != nullptr) Add(result.rests, quantum, rested_);
   for (int c = 0; c < 3; ++c) {
     absorbed_[c].Add(absorbed[c]);
     escaped_[c].Add(static_cast<double>(result.escaped[c]) * quantum[c]);
@@ -65,9 +80,10 @@ void FluxLedger::BookSolution(const StepPlan& plan, const UnitResult& result) {
   const Rgb emitted = unsent_sum_;
   unsent_.clear();
   unsent_sum_ = {};
+  Add(result.deposits, plan.quantum_lm, arrived_);
   CompensatedSum absorbed[3];
   for (const Deposit& deposit : result.deposits) {
-    const Rgb arrived = Arrive(deposit, plan.quantum_lm);
+    const Rgb arrived = InLumen(deposit, plan.quantum_lm);
     const Rgb kept = arrived - patches_.reflectance[deposit.patch] * arrived;
     for (int c = 0; c < 3; ++c) absorbed[c].Add(kept[c]);
   }

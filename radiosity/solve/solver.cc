@@ -5,6 +5,7 @@
 
 #include "radiosity/core/error.h"
 #include "radiosity/core/philox.h"
+#include "radiosity/patch/surface_tree.h"
 #include "radiosity/shoot/importance.h"
 #include "radiosity/solve/allocate.h"
 #include "radiosity/solve/checkpoint.h"
@@ -33,6 +34,16 @@ double GuessRaysPerFirstRay(const PatchSet& patches) {
     reflecting.Add(patches.area_m2[i] * Mean(patches.reflectance[i]));
   }
   return 1 / (1 - std::min(reflecting.value() / area.value(), 0.99999));
+}
+
+// Area from which a step's rays start: of the emitters at first, of all patches when light is
+// everywhere.
+double ShootingArea(const PatchSet& patches, bool first_step) {
+  CompensatedSum area_m2;
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    if (!first_step || !(patches.exitance_lm_per_m2[i] == Rgb{})) area_m2.Add(patches.area_m2[i]);
+  }
+  return std::max(area_m2.value(), 1e-300);  // point lights only
 }
 
 }  // namespace
@@ -72,6 +83,9 @@ struct Solver::State {
         now(std::move(clock)),
         replicates(*patches),
         started(now()) {
+    if (options.shoot.method == Method::kPhsHier) {
+      tree = std::make_unique<const SurfaceTree>(*patches);
+    }
     at.pass_rays = MakePlan(*patches, options).first_pass_rays;
     at.rays_per_first_ray = GuessRaysPerFirstRay(*patches);
     const Rgb emitted = EmittedFlux(*patches);
@@ -107,8 +121,9 @@ struct Solver::State {
   int32_t step = 0;
   int64_t steps_without_loss = 0;
   bool weighed = false;
-  std::vector<double> weights;  // of the emitters, for AllocateRays
-  SightingTable sightings;      // of all passes: what was seen stays true
+  std::vector<double> weights;              // of the emitters, for AllocateRays
+  std::unique_ptr<const SurfaceTree> tree;  // of method phs-hier
+  SightingTable sightings;                  // of all passes: what was seen stays true
 };
 
 absl::Status Solver::State::Weigh() {
@@ -159,6 +174,9 @@ StepPlan Solver::State::PlanStep(double flux_per_ray, const FluxLedger& ledger) 
                                     options.shoot.pyramids.count_unseen);
     }
   }
+  if (tree != nullptr) {
+    plan.rays_per_m2 = static_cast<double>(plan.rays) / ShootingArea(*patches, step == 0);
+  }
   return plan;
 }
 
@@ -190,7 +208,7 @@ absl::StatusOr<bool> Solver::State::RunStep(StepExecutor& executor, double flux_
 absl::Status Solver::State::RunOnePass(StepExecutor& executor,
                                        const std::function<void(const Progress&)>& on_step) {
   if (absl::Status status = Weigh(); !status.ok()) return status;
-  FluxLedger ledger(*patches);
+  FluxLedger ledger(*patches, tree.get());
   const double first_rays =
       std::max(1.0, static_cast<double>(at.pass_rays) / at.rays_per_first_ray);
   const double flux_per_ray = ledger.emitted_total_lm() / first_rays;
