@@ -34,7 +34,7 @@ auto Group(const PatchSet& patches, PatchIndex i) {
 }
 
 // How far to believe that the halves of an element, the first with a share of the area, are lit
-// unevenly: z^2 times over what chance would do to the rays that hit them (Breiman's garrote, 1995:
+// unevenly: z^2 times over what chance would do to the rays that hit them (the garrote of Bre95:
 // 1 - kDoubt^2 / z^2, 0 where that is negative).
 double Trust(int64_t hits_a, int64_t hits_b, double share) {
   constexpr double kDoubt = 1.5;
