@@ -40,6 +40,7 @@ double Trust(int64_t hits_a, int64_t hits_b, double share) {
   constexpr double kDoubt = 1.5;
   const double hits = static_cast<double>(hits_a + hits_b);
   const double deviation = static_cast<double>(hits_a) - share * hits;
+  if (deviation == 0) return 0;
   const double chance = hits * share * (1 - share);
   return std::max(0.0, 1 - kDoubt * kDoubt * chance / (deviation * deviation));
 }

@@ -73,7 +73,7 @@ struct PyramidOptions {
   bool use_clusters = true;   // false: test every vertex; the counts are the same
   bool count_unseen = false;  // phs-alpha: patches that were not hit yet are estimated (Cha84)
   int probes = 4;             // hs97, hs98: probing rays for each pyramid, >= 1
-  // phs-hier: rays of a pass that go from one element to another at most; fewer: larger elements.
+  // phs-hier: rays of a step from one element to another, at most (refinement.h).
   double hier_flux = 0.05;  // >= 0; 0: every ray arrives at its patch
   double hier_size = 0.3;   // greatest radius of an element over the length of a ray to it, >= 0
   // Rays in one visit from which a patch's densities are computed; fewer: cosine rays.

@@ -1,7 +1,6 @@
 // Where the flux of a ray comes to rest: at the patch that it hits, or at an element around it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 

@@ -100,7 +100,7 @@ std::vector<ShootSetting> MakeSettings() {
       NumberSetting<&P::grid>("phs-grid", "N", "squares along a side, 1..64 (8)"),
       NumberSetting<&P::leaves>("phs-leaves", "N", "phs-adaptive: pyramids of a patch (64)"),
       NumberSetting<&P::hier_flux>("phs-hier-flux", "F",
-                                   "phs-hier: rays of a pass from element to element, at most; "
+                                   "phs-hier: rays of a step from element to element, at most; "
                                    "fewer: larger elements (0.05)"),
       NumberSetting<&P::hier_size>(
           "phs-hier-size", "F",
