@@ -22,6 +22,22 @@ void Flight::Land() {
   LandTraced();
 }
 
+void Flight::Rest() {
+  constexpr int kAhead = 16;
+  PatchIndex place[RayBatch::kCapacity];
+  for (int k = 0; k < batch_.size; ++k) {
+    const int next = std::min(k + kAhead, batch_.size - 1);
+    if (batch_.hit[next] >= 0) refinement_->Prefetch(batch_.hit[next]);
+    place[k] = batch_.hit[k];
+    if (place[k] < 0) continue;
+    place[k] = refinement_->Place(*visit_of_[k], unit_rays_per_m2_, batch_, k);
+    rests_->Prefetch(place[k]);
+  }
+  for (int k = 0; k < batch_.size; ++k) {
+    if (place[k] >= 0) rests_->Add(place[k], flux_[k]);
+  }
+}
+
 void Flight::LandTraced() {
   constexpr int kAhead = 32;  // deposits are random accesses: fetch them early
   Long4 shot{}, escaped{};
@@ -45,6 +61,7 @@ void Flight::LandTraced() {
     }
     seer_[k] = kNoPatch;
   }
+  if (rests_ != nullptr) Rest();
   result_.rays += batch_.size;
   batch_.size = 0;
 }

@@ -8,6 +8,7 @@
 
 #include "radiosity/core/lanes.h"
 #include "radiosity/shoot/arrivals.h"
+#include "radiosity/shoot/refinement.h"
 #include "radiosity/shoot/unit.h"
 #include "radiosity/trace/ray_batch.h"
 #include "radiosity/trace/ray_scene.h"
@@ -49,12 +50,25 @@ class Flight {
   }
   virtual ~Flight() = default;
 
+  // What lands is added to `rests` as well, at the places that `refinement` says, for rays of a
+  // unit (unit.h). Both must outlive the flight.
+  void Refine(const Refinement& refinement, double unit_rays_per_m2, Arrivals& rests) {
+    refinement_ = &refinement;
+    unit_rays_per_m2_ = unit_rays_per_m2;
+    rests_ = &rests;
+  }
+  // The rays that are given flux from now on are of `visit`, which must outlive them.
+  void Begin(const Visit& visit) { visit_ = &visit; }
+
   RayBatch& batch() { return batch_; }
   float* weight() { return weight_; }  // by slot; room for a sampler
   int32_t* cell() { return cell_; }    // by slot; room for a sampler
   // Rays that fit before the batch has to land; lands it when none fits.
   uint32_t Room();
-  void SetFlux(int slot, const RayDeal& deal, int64_t ray) { flux_[slot] = deal.Of(ray); }
+  void SetFlux(int slot, const RayDeal& deal, int64_t ray) {
+    flux_[slot] = deal.Of(ray);
+    if (rests_ != nullptr) visit_of_[slot] = visit_;
+  }
   // Deals flux to rays [begin, end) from `slot` on.
   void SetFlux(int slot, const RayDeal& deal, uint32_t begin, uint32_t end) {
     for (uint32_t ray = begin; ray < end; ++ray) SetFlux(slot++, deal, ray);
@@ -71,14 +85,22 @@ class Flight {
   void LandTraced();
 
  private:
+  // Where the rays come to rest.
+  void Rest();
+
   const RayScene& scene_;
   Arrivals& arrivals_;
   UnitResult& result_;
   const bool watch_;
+  const Refinement* refinement_ = nullptr;
+  double unit_rays_per_m2_ = 0;
+  Arrivals* rests_ = nullptr;  // null: rays rest where they arrive
+  const Visit* visit_ = nullptr;
   RayBatch batch_;
   alignas(64) float weight_[RayBatch::kSlots];
   int32_t cell_[RayBatch::kSlots];
   PatchIndex seer_[RayBatch::kSlots];         // emitter of a ray that is watched, or kNoPatch
+  const Visit* visit_of_[RayBatch::kSlots];   // where rays come to rest elsewhere
   alignas(64) Long4 flux_[RayBatch::kSlots];  // r, g, b, 1
 };
 

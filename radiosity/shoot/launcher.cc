@@ -109,6 +109,7 @@ absl::Status Launcher::Launch(const WorkUnit& unit, Flight& flight) const {
                        {"FIELD_INVALID", "work unit, emitter " + std::to_string(visit.emitter),
                         "its rays or quanta are out of range", "send units of this patch set"});
     }
+    flight.Begin(visit);
     const bool point = emitters_.IsPointLight(visit.emitter);
     const bool divided =
         directions_ != nullptr && !point && visit.ray_count >= directions_->min_rays();

@@ -11,16 +11,13 @@ struct MethodEntry {
   Method method;
   const char* name;
 };
-constexpr MethodEntry kMethods[] = {{Method::kAuto, "auto"},
-                                    {Method::kMcr, "mcr"},
-                                    {Method::kPmcr, "pmcr"},
-                                    {Method::kHs97, "hs97"},
-                                    {Method::kHs98, "hs98"},
-                                    {Method::kPhs, "phs"},
-                                    {Method::kPhsAlpha, "phs-alpha"},
-                                    {Method::kPhsAdaptive, "phs-adaptive"},
-                                    {Method::kImportance, "importance"},
-                                    {Method::kExact, "exact"}};
+constexpr MethodEntry kMethods[] = {
+    {Method::kAuto, "auto"},          {Method::kMcr, "mcr"},
+    {Method::kPmcr, "pmcr"},          {Method::kHs97, "hs97"},
+    {Method::kHs98, "hs98"},          {Method::kPhs, "phs"},
+    {Method::kPhsAlpha, "phs-alpha"}, {Method::kPhsAdaptive, "phs-adaptive"},
+    {Method::kPhsHier, "phs-hier"},   {Method::kImportance, "importance"},
+    {Method::kExact, "exact"}};
 
 constexpr int kMaxPyramids = 65536;  // densities of a patch: 256 KiB
 
@@ -67,6 +64,12 @@ absl::Status CheckDensities(const PyramidOptions& p) {
   }
   if (p.probes < 1 || p.probes > 4096) {
     return FieldError("phs-probes", std::to_string(p.probes) + " is not in 1..4096", "use 4");
+  }
+  if (!(p.hier_flux >= 0)) {
+    return FieldError("phs-hier-flux", "it is negative", "use 0.05, or 0 for no hierarchy");
+  }
+  if (!(p.hier_size >= 0)) {
+    return FieldError("phs-hier-size", "it is negative", "use 0.3");
   }
   if (p.min_rays < 0) {
     return FieldError("phs-min-rays", std::to_string(p.min_rays) + " is negative",

@@ -19,6 +19,7 @@ enum class Method : uint8_t {
   kHs98 = 5,         // hemisphere subdivision in two phases: probe, then distribute (JP98)
   kPhsAlpha = 6,     // phs that counts the patches that were hit (JPS00, 3.3)
   kPhsAdaptive = 7,  // phs whose pyramids are split where many patches are (JPS00, 6)
+  kPhsHier = 8,      // phs whose light arrives at elements of a hierarchy (BNN98)
   kImportance = 9,   // directional importance of a region (NNB96)
   kExact = 10,       // closed-form form factors and a linear system (docs/exact.md)
 };
@@ -72,6 +73,9 @@ struct PyramidOptions {
   bool use_clusters = true;   // false: test every vertex; the counts are the same
   bool count_unseen = false;  // phs-alpha: patches that were not hit yet are estimated (Cha84)
   int probes = 4;             // hs97, hs98: probing rays for each pyramid, >= 1
+  // phs-hier: rays of a step from one element to another, at most (refinement.h).
+  double hier_flux = 0.05;  // >= 0; 0: every ray arrives at its patch
+  double hier_size = 0.3;   // greatest radius of an element over the length of a ray to it, >= 0
   // Rays in one visit from which a patch's densities are computed; fewer: cosine rays.
   // 0: chosen so that densities stay under a tenth of the run's time (docs/methods.md).
   int64_t min_rays = 0;

@@ -99,6 +99,12 @@ std::vector<ShootSetting> MakeSettings() {
       NumberSetting<&P::depth>("phs-depth", "N", "how often triangles are split, 0..4 (2)"),
       NumberSetting<&P::grid>("phs-grid", "N", "squares along a side, 1..64 (8)"),
       NumberSetting<&P::leaves>("phs-leaves", "N", "phs-adaptive: pyramids of a patch (64)"),
+      NumberSetting<&P::hier_flux>("phs-hier-flux", "F",
+                                   "phs-hier: rays of a step from element to element, at most; "
+                                   "fewer: larger elements (0.05)"),
+      NumberSetting<&P::hier_size>(
+          "phs-hier-size", "F",
+          "phs-hier: radius of an element over the length of a ray to it, at most (0.3)"),
       ChoiceSetting<kRules>(
           "phs-rule", "count|variance",
           "densities from the count of patches (the paper), or of least variance (count)",

@@ -10,6 +10,7 @@
 #include "radiosity/shoot/flight.h"
 #include "radiosity/shoot/importance.h"
 #include "radiosity/shoot/launcher.h"
+#include "radiosity/shoot/refinement.h"
 #include "radiosity/shoot/this_thread.h"
 #include "radiosity/trace/ray_scene.h"
 
@@ -27,7 +28,11 @@ class EmbreeShooter : public Shooter {
         watch_(options.method == Method::kPhsAlpha),
         scene_(std::move(scene)),
         launcher_(std::move(launcher)),
-        arrivals_(patches_->size()) {}
+        refinement_(options.method == Method::kPhsHier
+                        ? std::make_unique<const Refinement>(*patches_, *scene_, options.pyramids)
+                        : nullptr),
+        arrivals_(patches_->size()),
+        rests_(refinement_ != nullptr ? refinement_->place_count() : 0) {}
 
   absl::StatusOr<UnitResult> Run(const WorkUnit& unit) const override;
 
@@ -36,7 +41,8 @@ class EmbreeShooter : public Shooter {
   const bool watch_;  // what rays see is part of the result
   std::unique_ptr<RayScene> scene_;
   std::unique_ptr<Launcher> launcher_;
-  mutable ArrivalsPool arrivals_;
+  const std::unique_ptr<const Refinement> refinement_;  // null: rays rest where they arrive
+  mutable ArrivalsPool arrivals_, rests_;
 };
 
 absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
@@ -45,12 +51,21 @@ absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
   UnitResult result;
   std::unique_ptr<Arrivals> arrivals = arrivals_.Borrow();
   auto flight = std::make_unique<Flight>(*scene_, *arrivals, result, watch_);
+  std::unique_ptr<Arrivals> rests;
+  if (refinement_ != nullptr) {
+    rests = rests_.Borrow();
+    flight->Refine(*refinement_, unit.rays_per_m2, *rests);
+  }
   // Of a unit that fails, what has arrived is dropped with its arrivals.
   if (absl::Status status = launcher_->Launch(unit, *flight); !status.ok()) return status;
   flight->Land();
   result.deposits = arrivals->Take();
   CombineSightings(result.sightings);
   arrivals_.Return(std::move(arrivals));
+  if (rests != nullptr) {
+    result.rests = rests->Take();
+    rests_.Return(std::move(rests));
+  }
   result.cpu_seconds = ThreadCpuSeconds() - start;
   return result;
 }

@@ -8,14 +8,15 @@
 namespace lambert {
 namespace {
 
-constexpr uint32_t kUnitMagic = 0x3255574C;    // "LWU2"
-constexpr uint32_t kResultMagic = 0x3252554C;  // "LUR2"
+constexpr uint32_t kUnitMagic = 0x3355574C;    // "LWU3"
+constexpr uint32_t kResultMagic = 0x3352554C;  // "LUR3"
 
 struct UnitHeader {
   uint32_t magic = kUnitMagic;
   uint32_t visits = 0;
   uint64_t seed = 0;
   uint32_t pass = 0, step = 0;
+  double rays_per_m2 = 0;
 };
 
 struct VisitBytes {
@@ -32,9 +33,9 @@ struct ResultHeader {
   uint32_t entries = 0;  // patches that were hit
   int64_t shot[3], escaped[3];
   int64_t rays = 0;
-  uint64_t sightings = 0;
+  uint64_t rests = 0, sightings = 0;
 };
-static_assert(sizeof(ResultHeader) == 72);
+static_assert(sizeof(ResultHeader) == 80);
 
 struct DepositBytes {
   uint32_t patch, hits;
@@ -71,6 +72,51 @@ std::vector<Deposit> Merge(const std::vector<Deposit>& a, const std::vector<Depo
   return merged;
 }
 
+void Write(const std::vector<Deposit>& deposits, ByteWriter& writer) {
+  for (const Deposit& d : deposits) {
+    writer.Put(DepositBytes{
+        static_cast<uint32_t>(d.patch), static_cast<uint32_t>(d.hits), {d.r, d.g, d.b}});
+  }
+}
+
+// False where they are out of order or not of places 0 .. place_count - 1. Requires: the bytes are
+// there.
+bool Read(ByteReader& reader, uint64_t count, int64_t place_count, std::vector<Deposit>& deposits) {
+  deposits.reserve(count);
+  int64_t previous = -1;
+  for (uint64_t k = 0; k < count; ++k) {
+    DepositBytes d;
+    reader.Get(&d);
+    if (d.patch <= previous || d.patch >= place_count || d.hits == 0) return false;
+    previous = d.patch;
+    deposits.push_back(
+        {d.quanta[0], d.quanta[1], d.quanta[2], d.hits, static_cast<PatchIndex>(d.patch)});
+  }
+  return true;
+}
+
+// 128 bits: a forged result must not pass by overflowing.
+struct Sum {
+  std::array<__int128, 3> quanta{};
+  __int128 hits = 0;
+  bool operator==(const Sum&) const = default;
+};
+
+absl::StatusOr<Sum> SumOf(const std::vector<Deposit>& deposits) {
+  Sum sum;
+  for (const Deposit& deposit : deposits) {
+    if (deposit.r < 0 || deposit.g < 0 || deposit.b < 0) {
+      return Corrupt("unit result", "a deposit is negative");
+    }
+    if (deposit.hits <= 0) return Corrupt("unit result", "flux arrived without a ray");
+    sum.quanta[0] += deposit.r;
+    sum.quanta[1] += deposit.g;
+    sum.quanta[2] += deposit.b;
+    sum.hits += deposit.hits;
+  }
+  return sum;
+}
+
 std::array<int32_t, 3> Place(const Sighting& s) { return {s.emitter, s.cell, s.patch}; }
 
 }  // namespace
@@ -98,6 +144,7 @@ int64_t WorkUnit::RayCount() const {
 
 void MergeResult(const UnitResult& from, UnitResult& into) {
   into.deposits = Merge(from.deposits, into.deposits);
+  into.rests = Merge(from.rests, into.rests);
   if (!from.sightings.empty()) {
     into.sightings.insert(into.sightings.end(), from.sightings.begin(), from.sightings.end());
     CombineSightings(into.sightings);
@@ -114,18 +161,13 @@ absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result) {
     return Corrupt("unit result", "it reports " + std::to_string(result.rays) + " rays of " +
                                       std::to_string(rays));
   }
-  // 128 bits: a forged result must not pass by overflowing.
-  __int128 arrived[3] = {0, 0, 0};
-  __int128 hits = 0;
-  for (const Deposit& deposit : result.deposits) {
-    if (deposit.r < 0 || deposit.g < 0 || deposit.b < 0) {
-      return Corrupt("unit result", "a deposit is negative");
-    }
-    if (deposit.hits <= 0) return Corrupt("unit result", "flux arrived without a ray");
-    arrived[0] += deposit.r;
-    arrived[1] += deposit.g;
-    arrived[2] += deposit.b;
-    hits += deposit.hits;
+  const absl::StatusOr<Sum> sum = SumOf(result.deposits);
+  if (!sum.ok()) return sum.status();
+  const auto& [arrived, hits] = *sum;
+  if (!result.rests.empty()) {
+    const absl::StatusOr<Sum> rests = SumOf(result.rests);
+    if (!rests.ok()) return rests.status();
+    if (*rests != *sum) return Corrupt("unit result", "what came to rest is not what arrived");
   }
   if (hits > rays) return Corrupt("unit result", "more rays arrived than were shot");
   if (result.sightings.size() > static_cast<size_t>(hits)) {
@@ -152,6 +194,7 @@ std::string EncodeUnit(const WorkUnit& unit) {
   header.seed = unit.seed;
   header.pass = unit.pass;
   header.step = unit.step;
+  header.rays_per_m2 = unit.rays_per_m2;
   writer.Put(header);
   for (const Visit& v : unit.visits) {
     writer.Put(VisitBytes{v.emitter,
@@ -173,7 +216,7 @@ absl::StatusOr<WorkUnit> DecodeUnit(const std::string& bytes) {
       header.visits > reader.remaining() / sizeof(VisitBytes)) {
     return Corrupt("work unit", "the bytes are not a work unit");
   }
-  WorkUnit unit{header.seed, header.pass, header.step, {}};
+  WorkUnit unit{header.seed, header.pass, header.step, {}, header.rays_per_m2};
   unit.visits.reserve(header.visits);
   for (uint32_t k = 0; k < header.visits; ++k) {
     VisitBytes v;
@@ -201,12 +244,11 @@ std::string EncodeUnitResult(const UnitResult& result) {
   std::copy(result.shot.begin(), result.shot.end(), header.shot);
   std::copy(result.escaped.begin(), result.escaped.end(), header.escaped);
   header.rays = result.rays;
+  header.rests = result.rests.size();
   header.sightings = result.sightings.size();
   writer.Put(header);
-  for (const Deposit& d : result.deposits) {
-    writer.Put(DepositBytes{
-        static_cast<uint32_t>(d.patch), static_cast<uint32_t>(d.hits), {d.r, d.g, d.b}});
-  }
+  Write(result.deposits, writer);
+  Write(result.rests, writer);
   writer.PutArray(result.sightings.data(), result.sightings.size());
   return writer.Take();
 }
@@ -215,26 +257,20 @@ absl::StatusOr<UnitResult> DecodeUnitResult(const std::string& bytes, PatchIndex
   ByteReader reader(bytes);
   ResultHeader header;
   if (!reader.Get(&header) || header.magic != kResultMagic ||
+      header.rests > reader.remaining() / sizeof(DepositBytes) ||
       header.sightings > reader.remaining() / sizeof(Sighting) ||
-      reader.remaining() !=
-          header.entries * sizeof(DepositBytes) + header.sightings * sizeof(Sighting)) {
+      reader.remaining() != (header.entries + header.rests) * sizeof(DepositBytes) +
+                                header.sightings * sizeof(Sighting)) {
     return Corrupt("unit result", "the bytes are not a unit's result");
   }
   UnitResult result;
-  result.deposits.reserve(header.entries);
   std::copy(std::begin(header.shot), std::end(header.shot), result.shot.begin());
   std::copy(std::begin(header.escaped), std::end(header.escaped), result.escaped.begin());
   result.rays = header.rays;
-  int64_t previous = -1;
-  for (uint32_t k = 0; k < header.entries; ++k) {
-    DepositBytes d;
-    reader.Get(&d);
-    if (d.patch <= previous || d.patch >= static_cast<uint32_t>(patch_count) || d.hits == 0) {
-      return Corrupt("unit result", "its patches are out of order or out of range");
-    }
-    previous = d.patch;
-    result.deposits.push_back(
-        {d.quanta[0], d.quanta[1], d.quanta[2], d.hits, static_cast<PatchIndex>(d.patch)});
+  // A tree over N patches has fewer than N elements.
+  if (!Read(reader, header.entries, patch_count, result.deposits) ||
+      !Read(reader, header.rests, 2 * int64_t{patch_count}, result.rests)) {
+    return Corrupt("unit result", "its patches are out of order or out of range");
   }
   result.sightings.resize(header.sightings);
   reader.GetArray(result.sightings.data(), result.sightings.size());

@@ -38,12 +38,14 @@ struct WorkUnit {
   uint64_t seed = 0;
   uint32_t pass = 0, step = 0;
   std::vector<Visit> visits;
+  // Rays that the step shoots over the area that may shoot (method phs-hier).
+  double rays_per_m2 = 0;
   bool operator==(const WorkUnit&) const = default;
 
   int64_t RayCount() const;
 };
 
-// What arrived at one patch.
+// What arrived at one patch, or came to rest at one place of a SurfaceTree.
 struct Deposit {
   int64_t r = 0, g = 0, b = 0;  // quanta
   int64_t hits = 0;             // rays, > 0
@@ -67,6 +69,9 @@ void CombineSightings(std::vector<Sighting>& sightings);
 struct UnitResult {
   // Of the patches that were hit, in order: the last rays of a pass hit few of many patches.
   std::vector<Deposit> deposits;
+  // The same flux once more, at the patches and elements where it comes to rest, by place: what the
+  // solution shows (method phs-hier). What a patch reflects is what arrived at it.
+  std::vector<Deposit> rests;
   // In order, each once (method phs-alpha).
   std::vector<Sighting> sightings;
   Quanta shot{};     // = sum of deposits + escaped, each channel
@@ -79,8 +84,8 @@ struct UnitResult {
 // Adds `from` to `into`.
 void MergeResult(const UnitResult& from, UnitResult& into);
 
-// OK if shot = deposited + escaped in each channel, and rays = hits + misses is possible for
-// `unit`; else DATA_LOSS (reason RESULT_INVALID) with both numbers.
+// OK if shot = deposited + escaped in each channel, all deposits or none came to rest, and rays =
+// hits + misses is possible for `unit`; else DATA_LOSS (reason RESULT_INVALID) with both numbers.
 absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result);
 
 // Canonical bytes (docs/formats.md): a unit's result has the same bytes wherever it was computed,

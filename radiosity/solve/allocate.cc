@@ -98,7 +98,7 @@ std::vector<WorkUnit> CutIntoUnits(const StepPlan& plan, uint64_t seed, uint32_t
   for (const Visit& visit : plan.visits) {
     for (uint32_t begin = 0; begin < visit.ray_count;) {
       if (room == 0) {
-        units.push_back({seed, pass, step, {}});
+        units.push_back({seed, pass, step, {}, plan.rays_per_m2});
         room = unit_rays;
       }
       Visit part = visit;

@@ -22,6 +22,7 @@ struct StepPlan {
   std::vector<Visit> visits;  // whole visits: ray_begin 0, ray_end ray_count
   Rgb quantum_lm;             // a power of two, or 0 for a channel without flux
   int64_t rays = 0;
+  double rays_per_m2 = 0;  // WorkUnit's, for methods that want it
 };
 
 // Emitter i expects e_i = weight_i flux_i / flux_per_ray rays (flux: the sum of its channels;

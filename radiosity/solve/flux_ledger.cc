@@ -8,6 +8,21 @@ namespace {
 
 Rgb Magnitude(Rgb flux) { return {std::fabs(flux.r), std::fabs(flux.g), std::fabs(flux.b)}; }
 
+Rgb InLumen(const Deposit& deposit, const Rgb& quantum_lm) {
+  return {static_cast<double>(deposit.r) * quantum_lm.r,
+          static_cast<double>(deposit.g) * quantum_lm.g,
+          static_cast<double>(deposit.b) * quantum_lm.b};
+}
+
+void AddDeposits(const std::vector<Deposit>& deposits, const Rgb& quantum_lm, Arrived& sum) {
+  for (const Deposit& deposit : deposits) {
+    const auto place = static_cast<size_t>(deposit.patch);
+    if (place >= sum.hits.size()) continue;  // no such element: a forged result
+    sum.flux_lm[place] = sum.flux_lm[place] + InLumen(deposit, quantum_lm);
+    sum.hits[place] += deposit.hits;
+  }
+}
+
 // Two lists in order of emitters as one.
 std::vector<UnsentFlux> Sum(const std::vector<UnsentFlux>& a, const std::vector<UnsentFlux>& b) {
   std::vector<UnsentFlux> sum;
@@ -50,11 +65,12 @@ void CompensatedSum::Add(double value) {
   sum_ = next;
 }
 
-FluxLedger::FluxLedger(const PatchSet& patches)
+FluxLedger::FluxLedger(const PatchSet& patches, const SurfaceTree* tree)
     : patches_(patches),
+      tree_(tree),
       emitted_(EmittedFlux(patches)),
-      arrived_lm_(patches.size()),
-      hits_(patches.size()) {
+      arrived_(patches.size()),
+      rested_(tree != nullptr ? tree->place_count() : 0) {
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     AddUnsent(i, patches.exitance_lm_per_m2[i] * patches.area_m2[i]);
   }
@@ -82,14 +98,8 @@ void FluxLedger::Add(const std::vector<UnsentFlux>& flux) {
   for (const UnsentFlux& unsent : sum) AddUnsent(unsent.emitter, unsent.flux_lm);
 }
 
-Rgb FluxLedger::Arrive(const Deposit& deposit, const Rgb& quantum) {
-  const PatchIndex i = deposit.patch;
-  hits_[i] += deposit.hits;
-  const Rgb arrived{static_cast<double>(deposit.r) * quantum.r,
-                    static_cast<double>(deposit.g) * quantum.g,
-                    static_cast<double>(deposit.b) * quantum.b};
-  arrived_lm_[i] = arrived_lm_[i] + arrived;
-  return arrived;
+std::vector<Rgb> FluxLedger::ArrivedFlux() const {
+  return tree_ != nullptr ? tree_->PushDown(rested_, arrived_) : arrived_.flux_lm;
 }
 
 void FluxLedger::Book(std::vector<UnsentFlux> sent, const StepPlan& plan, const UnitResult& result,
@@ -106,12 +116,14 @@ void FluxLedger::Book(std::vector<UnsentFlux> sent, const StepPlan& plan, const 
   ClearUnsent();
   Rgb absorbed;
   for (const Deposit& deposit : result.deposits) {
-    const Rgb arrived = Arrive(deposit, quantum);
+    const Rgb arrived = InLumen(deposit, quantum);
     const Rgb reflected = patches_.reflectance[deposit.patch] * arrived;
     absorbed = absorbed + (arrived - reflected);
     AddUnsent(deposit.patch, reflected);
   }
   if (!left.empty()) Add(left);
+  AddDeposits(result.deposits, quantum, arrived_);
+  if (tree_ != nullptr) AddDeposits(result.rests, quantum, rested_);
   for (int c = 0; c < 3; ++c) {
     absorbed_[c].Add(absorbed[c]);
     escaped_[c].Add(static_cast<double>(result.escaped[c]) * quantum[c]);
@@ -124,9 +136,10 @@ void FluxLedger::Book(std::vector<UnsentFlux> sent, const StepPlan& plan, const 
 void FluxLedger::BookSolution(const StepPlan& plan, const UnitResult& result) {
   const Rgb emitted = unsent_sum_;
   ClearUnsent();
+  AddDeposits(result.deposits, plan.quantum_lm, arrived_);
   CompensatedSum absorbed[3];
   for (const Deposit& deposit : result.deposits) {
-    const Rgb arrived = Arrive(deposit, plan.quantum_lm);
+    const Rgb arrived = InLumen(deposit, plan.quantum_lm);
     const Rgb kept = arrived - patches_.reflectance[deposit.patch] * arrived;
     for (int c = 0; c < 3; ++c) absorbed[c].Add(kept[c]);
   }

@@ -5,6 +5,7 @@
 
 #include "radiosity/core/rgb.h"
 #include "radiosity/patch/patch_set.h"
+#include "radiosity/patch/surface_tree.h"
 #include "radiosity/shoot/unit.h"
 #include "radiosity/solve/allocate.h"
 #include "radiosity/solve/solution.h"
@@ -27,8 +28,9 @@ std::vector<UnsentFlux> Scaled(std::vector<UnsentFlux> flux, double factor);
 
 class FluxLedger {
  public:
-  // All emitters' emission is unsent: patches first, then point lights.
-  explicit FluxLedger(const PatchSet& patches);
+  // All emitters' emission is unsent: patches first, then point lights. With a `tree` of the
+  // patches, which must outlive the ledger, what arrived is what came to rest (UnitResult::rests).
+  explicit FluxLedger(const PatchSet& patches, const SurfaceTree* tree = nullptr);
 
   // Emitters with unsent flux, in order. Negative flux takes back what was shot too much of; there
   // is none but after Add.
@@ -54,23 +56,22 @@ class FluxLedger {
   // all bounces, and nothing is left unsent.
   void BookSolution(const StepPlan& plan, const UnitResult& result);
 
-  // Flux arrived so far [lm], by patch.
-  const std::vector<Rgb>& arrived_lm() const { return arrived_lm_; }
-  const std::vector<int64_t>& hits() const { return hits_; }
+  // Flux arrived so far [lm], by patch: at it, or at elements and spread over their patches.
+  std::vector<Rgb> ArrivedFlux() const;
+  const std::vector<int64_t>& hits() const { return arrived_.hits; }
   Ledger Balance() const;
 
  private:
   void AddUnsent(int32_t emitter, Rgb flux_lm);
   void ClearUnsent();
-  // Books what arrived, and returns it [lm].
-  Rgb Arrive(const Deposit& deposit, const Rgb& quantum);
 
   const PatchSet& patches_;
+  const SurfaceTree* tree_;  // null: flux rests where it arrives
   Rgb emitted_;
   std::vector<UnsentFlux> unsent_;
   Rgb unsent_sum_, unsent_magnitude_;
-  std::vector<Rgb> arrived_lm_;
-  std::vector<int64_t> hits_;
+  Arrived arrived_;  // by patch
+  Arrived rested_;   // by place of the tree
   CompensatedSum absorbed_[3], escaped_[3], residual_[3];
 };
 

@@ -24,10 +24,23 @@ absl::Status NothingIsLost() {
                     "give some material a reflectance under 1"});
 }
 
+// Area from which a step's rays start: of the emitters at first, of all patches when light is
+// everywhere.
+double ShootingArea(const PatchSet& patches, bool first_step) {
+  CompensatedSum area_m2;
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    if (!first_step || !(patches.exitance_lm_per_m2[i] == Rgb{})) area_m2.Add(patches.area_m2[i]);
+  }
+  return std::max(area_m2.value(), 1e-300);  // point lights only
+}
+
 }  // namespace
 
 Pass::Pass(const PassSetting& setting, int32_t number, int64_t rays, double rays_per_first_ray)
-    : setting_(setting), number_(number), wanted_rays_(rays), ledger_(setting.patches) {
+    : setting_(setting),
+      number_(number),
+      wanted_rays_(rays),
+      ledger_(setting.patches, setting.tree) {
   const double emitted = ledger_.emitted_total_lm();
   const double first_rays = static_cast<double>(rays) / rays_per_first_ray;
   if (setting.light_groups.empty()) {
@@ -73,6 +86,10 @@ StepPlan Pass::PlanStep(double flux_per_ray_lm, const std::vector<UnsentFlux>& u
           setting_.sightings.Counts(visit.emitter, setting_.options.shoot.pyramids.CellCount(),
                                     setting_.options.shoot.pyramids.count_unseen);
     }
+  }
+  if (setting_.tree != nullptr) {
+    const double area_m2 = ShootingArea(setting_.patches, steps_ == 0);
+    plan.rays_per_m2 = static_cast<double>(plan.rays) / area_m2;
   }
   return plan;
 }

@@ -7,6 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "radiosity/patch/patch_set.h"
+#include "radiosity/patch/surface_tree.h"
 #include "radiosity/solve/ambient.h"
 #include "radiosity/solve/flux_ledger.h"
 #include "radiosity/solve/options.h"
@@ -22,6 +23,7 @@ struct PassSetting {
   const std::vector<double>& weights;        // of the emitters, for AllocateRays
   const std::vector<int32_t>& light_groups;  // empty: nothing is shot ahead
   const Ambient::Before& before;             // of use with light groups only
+  const SurfaceTree* tree;                   // of method phs-hier, else null
   SightingTable& sightings;                  // of all passes: what was seen stays true
 };
 

@@ -48,6 +48,8 @@ int64_t WorkerBytes(const PatchSet& patches, const ShootOptions& shoot) {
   // Patch set 200, tracer 60 + 119 at the peak of its build, frames 36, one unit's deposits 32.
   int64_t bytes = patches.size() * (200 + 179 + 36 + 32);
   if (UsesPyramids(shoot.method)) bytes += patches.size() * 200;  // clusters or targets
+  // Geometry 36, tree 52, where it rests 2 * 32.
+  if (shoot.method == Method::kPhsHier) bytes += patches.size() * (36 + 52 + 64);
   if (shoot.method == Method::kExact) {
     // Two halves of a matrix of doubles, and a link and its weight for up to half of all pairs.
     bytes += (2 * 4 + 12) * int64_t{patches.size()} * patches.size();

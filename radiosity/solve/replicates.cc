@@ -33,8 +33,9 @@ Replicates::Replicates(const PatchSet& patches)
 void Replicates::Add(const FluxLedger& pass, int64_t rays) {
   const double weight = static_cast<double>(rays);
   const double share = weight / (weight_ + weight);
+  const std::vector<Rgb> arrived_lm = pass.ArrivedFlux();
   for (PatchIndex i = 0; i < patches_.size(); ++i) {
-    const Rgb irradiance = pass.arrived_lm()[i] / patches_.area_m2[i];
+    const Rgb irradiance = arrived_lm[i] / patches_.area_m2[i];
     // West's update: the spread grows by N_p W / (W + N_p) (x_p - x)^2 with W the weight before.
     const Rgb delta = patches_.reflectance[i] * (irradiance - irradiance_lx_[i]);
     const double gray = lambert::Mean(delta);

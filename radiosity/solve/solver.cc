@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radiosity/patch/surface_tree.h"
 #include "radiosity/shoot/importance.h"
 #include "radiosity/shoot/light_groups.h"
 #include "radiosity/solve/checkpoint.h"
@@ -58,6 +59,9 @@ struct Solver::State {
         now(std::move(clock)),
         replicates(*patches),
         started(now()) {
+    if (options.shoot.method == Method::kPhsHier) {
+      tree = std::make_unique<const SurfaceTree>(*patches);
+    }
     at.pass_rays = MakePlan(*patches, options).first_pass_rays;
     at.rays_per_first_ray = GuessRaysPerFirstRay(*patches);
     const Rgb emitted = EmittedFlux(*patches);
@@ -88,9 +92,10 @@ struct Solver::State {
   RunState at;                                               // where the run stands
   double estimated_rms_area = -1, estimated_rms_patch = -1;  // of the replicates
   bool prepared = false;
-  std::vector<double> weights;        // of the emitters, for AllocateRays
-  std::vector<int32_t> light_groups;  // empty: nothing is shot ahead
-  SightingTable sightings;            // of all passes: what was seen stays true
+  std::vector<double> weights;              // of the emitters, for AllocateRays
+  std::vector<int32_t> light_groups;        // empty: nothing is shot ahead
+  std::unique_ptr<const SurfaceTree> tree;  // of method phs-hier
+  SightingTable sightings;                  // of all passes: what was seen stays true
 };
 
 absl::Status Solver::State::Prepare() {
@@ -126,7 +131,7 @@ absl::Status Solver::State::RunOnePass(StepExecutor& executor,
                                        const std::function<void(const Progress&)>& on_step) {
   if (absl::Status status = Prepare(); !status.ok()) return status;
   const Ambient::Before before = Before();
-  Pass pass({*patches, options, weights, light_groups, before, sightings}, at.next_pass,
+  Pass pass({*patches, options, weights, light_groups, before, tree.get(), sightings}, at.next_pass,
             at.pass_rays, at.rays_per_first_ray);
   const int64_t rays_before = at.rays;
   const double cpu_before = at.cpu_seconds;

@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(All, Cube12,
 INSTANTIATE_TEST_SUITE_P(Others, Cube12,
                          testing::Combine(testing::Values(Method::kMcr, Method::kHs97,
                                                           Method::kHs98, Method::kPhsAlpha,
-                                                          Method::kPhsAdaptive),
+                                                          Method::kPhsAdaptive, Method::kPhsHier),
                                           testing::Values(Case{0.5, 0.1777485977549})),
                          CubeName);
 

@@ -28,6 +28,7 @@ std::vector<MethodCase> EveryShootingMethod() {
           {"phs-alpha", Method::kPhsAlpha, {}},
           {"phs-alpha with the unseen", Method::kPhsAlpha, {{"phs-count-unseen", "yes"}}},
           {"phs-adaptive", Method::kPhsAdaptive, {{"phs-leaves", "16"}, {"phs-depth", "3"}}},
+          {"phs-hier", Method::kPhsHier, {}},
           {"importance", Method::kImportance, {}}};
 }
 

@@ -103,7 +103,7 @@ std::string NameOf(const testing::TestParamInfo<Method>& info) {
 INSTANTIATE_TEST_SUITE_P(EveryMethod, Stiff,
                          testing::Values(Method::kMcr, Method::kPmcr, Method::kHs97, Method::kHs98,
                                          Method::kPhs, Method::kPhsAlpha, Method::kPhsAdaptive,
-                                         Method::kImportance),
+                                         Method::kPhsHier, Method::kImportance),
                          NameOf);
 
 // Each converges as if it were alone: what is known of one does not disturb the other.

@@ -110,7 +110,7 @@ TEST_P(SameBytesOfMethod, WithTwoWorkersAndWithOneOfThreeKilled) {
 
 INSTANTIATE_TEST_SUITE_P(Others, SameBytesOfMethod,
                          testing::Values(Method::kMcr, Method::kHs97, Method::kHs98, Method::kPhs,
-                                         Method::kPhsAlpha, Method::kPhsAdaptive,
+                                         Method::kPhsAlpha, Method::kPhsAdaptive, Method::kPhsHier,
                                          Method::kImportance),
                          [](const auto& info) {
                            std::string name = MethodName(info.param);

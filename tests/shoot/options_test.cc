@@ -53,6 +53,10 @@ TEST(ShootOptions, ValidationNamesTheFieldThatIsOutOfRange) {
     EXPECT_EQ(RefusedAfter([&](PyramidOptions& p) { p.grid = grid; }), "phs-grid");
   }
   EXPECT_EQ(RefusedAfter([](PyramidOptions& p) { p.leaves = 3; }), "phs-leaves");
+  for (double negative : {-0.1, kNan}) {
+    EXPECT_EQ(RefusedAfter([&](PyramidOptions& p) { p.hier_flux = negative; }), "phs-hier-flux");
+    EXPECT_EQ(RefusedAfter([&](PyramidOptions& p) { p.hier_size = negative; }), "phs-hier-size");
+  }
   for (double metric : {-0.1, 1.1, kNan}) {
     EXPECT_EQ(RefusedAfter([&](PyramidOptions& p) { p.metric = metric; }), "phs-metric");
   }
@@ -85,6 +89,7 @@ TEST(ShootOptions, ValidationTakesTheEndsOfEveryRange) {
     EXPECT_EQ(RefusedAfter([&](PyramidOptions& p) { p.depth = depth; }), "");
   }
   EXPECT_EQ(RefusedAfter([](PyramidOptions& p) { p.split = 3; }), "");
+  EXPECT_EQ(RefusedAfter([](PyramidOptions& p) { p.hier_flux = p.hier_size = 0; }), "");
   EXPECT_EQ(RefusedAfter([](PyramidOptions& p) { p.alpha1 = 0; }), "");
   EXPECT_EQ(RefusedAfter([](PyramidOptions& p) { p.alpha2 = 0; }), "");
 }

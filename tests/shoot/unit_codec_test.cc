@@ -16,6 +16,7 @@ WorkUnit MakeUnit() {
   for (int k = 0; k < 12; ++k) {
     unit.visits.push_back({3 * k, 1000u + k, 10u * k, 10u * k + 5, {k, int64_t{1} << (40 + k), 0}});
   }
+  unit.rays_per_m2 = 12.5;
   unit.visits[3].seen = {4, 0, 1u << 31};
   return unit;
 }
@@ -25,11 +26,18 @@ UnitResult MakeResult() {
   for (PatchIndex i = 0; i < kPatches; i += 4) {
     result.deposits.push_back({i, int64_t{1} << 40, 0, i + 1, i});
   }
+  result.rests = {{5, 6, 7, 2, 3}, {1, 2, 3, 4, 2 * kPatches - 1}};
   result.shot = {1000, 2000, 3000};
   result.escaped = {1, 2, 3};
   result.rays = 777;
   result.sightings = {{0, 3, 7, 1}, {0, 4, 2, 3}, {49, 0, 0, 2}};
   return result;
+}
+
+TEST(UnitCodec, RefusesPlacesBeyondThoseOfAnyTree) {
+  UnitResult result = MakeResult();
+  result.rests[1].patch = 2 * kPatches;
+  EXPECT_FALSE(DecodeUnitResult(EncodeUnitResult(result), kPatches).ok());
 }
 
 // What `change` makes of a good result's sightings is refused.
@@ -147,8 +155,8 @@ TEST(UnitCodec, AResultAboutPatchesThatDoNotExistIsRefused) {
 TEST(UnitCodec, PatchesOutOfOrderOrTwiceAreRefused) {
   UnitResult result = MakeResult();
   const std::string bytes = EncodeUnitResult(result);
-  constexpr size_t kHeader = 72, kEntry = 32, kSighting = 16;  // docs/formats.md
-  ASSERT_EQ(bytes.size(), kHeader + 13 * kEntry + 3 * kSighting);
+  constexpr size_t kHeader = 80, kEntry = 32, kSighting = 16;  // docs/formats.md
+  ASSERT_EQ(bytes.size(), kHeader + (13 + 2) * kEntry + 3 * kSighting);
   std::string twice = bytes, swapped = bytes;
   twice.replace(kHeader + kEntry, kEntry, bytes, kHeader, kEntry);
   swapped.replace(kHeader, kEntry, bytes, kHeader + kEntry, kEntry);

@@ -44,12 +44,14 @@ TEST(MergeResult, IsCommutativeAndAssociative) {
 TEST(MergeResult, AddsEveryField) {
   UnitResult a;
   a.deposits = {{1, 2, 3, 4, 0}, {5, 6, 7, 8, 3}};
+  a.rests = {{6, 8, 10, 12, 7}};
   a.shot = {10, 20, 30};
   a.escaped = {1, 2, 3};
   a.rays = 12;
   a.cpu_seconds = 0.5;
   const UnitResult twice = Merged(a, a);
   EXPECT_EQ(twice.deposits[1], (Deposit{10, 12, 14, 16, 3}));
+  EXPECT_EQ(twice.rests, (std::vector<Deposit>{{12, 16, 20, 24, 7}}));
   EXPECT_EQ(twice.shot, (Quanta{20, 40, 60}));
   EXPECT_EQ(twice.escaped, (Quanta{2, 4, 6}));
   EXPECT_EQ(twice.rays, 24);
@@ -98,6 +100,21 @@ void ExpectRefused(const char* what, Forge forge) {
   if (!status.ok()) {
     EXPECT_EQ(GetErrorDetail(status)->reason, "RESULT_INVALID") << what;
   }
+}
+
+TEST(CheckLedger, WhatComesToRestIsWhatArrived) {
+  Booked booked = Balanced();
+  Deposit all;
+  for (const Deposit& d : booked.result.deposits) {
+    all = {all.r + d.r, all.g + d.g, all.b + d.b, all.hits + d.hits, 7};
+  }
+  booked.result.rests = {all};
+  EXPECT_TRUE(CheckLedger(booked.unit, booked.result).ok());
+  ++booked.result.rests[0].g;
+  EXPECT_FALSE(CheckLedger(booked.unit, booked.result).ok());
+  booked.result.rests = {all};
+  --booked.result.rests[0].hits;
+  EXPECT_FALSE(CheckLedger(booked.unit, booked.result).ok());
 }
 
 TEST(CheckLedger, RefusesEachKindOfForgery) {

@@ -31,7 +31,7 @@ TEST(FluxLedger, StartsWithAllEmissionUnsentPatchesFirst) {
   std::vector<UnsentFlux> emitting;
   Rgb sum;
   for (PatchIndex i = 0; i < patches.size(); ++i) {
-    EXPECT_EQ(ledger.arrived_lm()[i], Rgb{});
+    EXPECT_EQ(ledger.ArrivedFlux()[i], Rgb{});
     const Rgb flux_lm = patches.exitance_lm_per_m2[i] * patches.area_m2[i];
     if (flux_lm != Rgb{}) emitting.push_back({i, flux_lm});
     sum = sum + flux_lm;
@@ -59,7 +59,7 @@ TEST(FluxLedger, BooksAStepByHand) {
   result.shot = {4, 4, 4};
   result.escaped = {2, 2, 2};
   ledger.Book(ledger.unsent(), plan, result);
-  EXPECT_EQ(ledger.arrived_lm()[lit], (Rgb{0.5, 0.5, 0.5}));
+  EXPECT_EQ(ledger.ArrivedFlux()[lit], (Rgb{0.5, 0.5, 0.5}));
   EXPECT_EQ(ledger.hits()[lit], 1);
   EXPECT_EQ(ledger.unsent(), (std::vector<UnsentFlux>{{lit, {0.25, 0.25, 0.25}}}));
   EXPECT_DOUBLE_EQ(ledger.unsent_total_lm(), 0.75);
@@ -90,7 +90,7 @@ TEST(FluxLedger, TakesBackWhatWasShotTooMuchOf) {
   result.deposits = {{1, 1, 1, 1, 5}};
   result.shot = {1, 1, 1};
   ledger.Book({{3, left * -0.5}}, plan, result, -1);
-  EXPECT_EQ(ledger.arrived_lm()[5], (Rgb{-0.5, -0.5, -0.5}));
+  EXPECT_EQ(ledger.ArrivedFlux()[5], (Rgb{-0.5, -0.5, -0.5}));
   EXPECT_DOUBLE_EQ(ledger.unsent()[3].flux_lm.g, left.g / 2);
   EXPECT_DOUBLE_EQ(ledger.unsent()[5].flux_lm.g, emitted - 0.25);
   const Ledger b = ledger.Balance();
@@ -101,6 +101,30 @@ TEST(FluxLedger, TakesBackWhatWasShotTooMuchOf) {
 
 TEST(Scaled, ScalesEveryChannel) {
   EXPECT_EQ(Scaled({{1, {1, -2, 3}}}, -2), (std::vector<UnsentFlux>{{1, {-2, 4, -6}}}));
+}
+
+// Two rays arrive at one patch and rest on the whole of its square: the light is on both patches of
+// it, but only the patch that was hit reflects.
+TEST(FluxLedger, ShowsLightWhereItRestsAndReflectsItWhereItArrived) {
+  const PatchSet patches = PatchesOf(MakeParallelSquares(0.5, 0.25));
+  const SurfaceTree tree(patches);
+  FluxLedger ledger(patches, &tree);
+  StepPlan plan;
+  plan.quantum_lm = {0.25, 0.25, 0.25};
+  UnitResult result;
+  const PatchIndex hit = 1;
+  result.deposits = {{8, 8, 8, 2, hit}};
+  result.rests = {{8, 8, 8, 2, patches.size() + tree.ParentOf(hit)}};
+  result.shot = {8, 8, 8};
+  ledger.Book(ledger.unsent(), plan, result);
+  ASSERT_EQ(ledger.unsent().size(), 1u);
+  EXPECT_EQ(ledger.unsent()[0].emitter, hit);
+  EXPECT_EQ(ledger.hits()[hit], 2);
+  const std::vector<Rgb> arrived = ledger.ArrivedFlux();
+  int lit = 0;
+  for (const Rgb& flux : arrived) lit += flux.r > 0;
+  EXPECT_EQ(lit, 2);
+  EXPECT_DOUBLE_EQ(arrived[hit].r, 1);
 }
 
 // Steps of a Cornell box that is open in front, with the losses of roulette and of cosine weights.

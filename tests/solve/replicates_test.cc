@@ -53,7 +53,7 @@ Replicates Filled(const std::vector<Pass>& passes) {
 // Radiosity of a patch after one pass: E + rho H, H = flux / area.
 Rgb Radiosity(const Pass& pass, PatchIndex i) {
   return Patches().exitance_lm_per_m2[i] +
-         Patches().reflectance[i] * pass.ledger.arrived_lm()[i] / Patches().area_m2[i];
+         Patches().reflectance[i] * pass.ledger.ArrivedFlux()[i] / Patches().area_m2[i];
 }
 
 // x = sum N_p x_p / sum N_p and Var(x) = sum N_p (x_p - x)^2 / (P - 1) / sum N_p.
@@ -86,7 +86,7 @@ TEST(Replicates, MeanAndStandardErrorAreTheDirectFormulas) {
       EXPECT_NEAR(solution.radiosity_lm_per_m2[i][c] / b.mean, 1, 1e-12);
       EXPECT_NEAR(solution.std_error_lm_per_m2[i][c] / std::sqrt(b.variance), 1, 1e-9);
       const Direct h = DirectFormula(passes, [&](const Pass& p) {
-        return p.ledger.arrived_lm()[i][c] / Patches().area_m2[i];
+        return p.ledger.ArrivedFlux()[i][c] / Patches().area_m2[i];
       });
       EXPECT_NEAR(solution.irradiance_lx[i][c] / h.mean, 1, 1e-12);
     }

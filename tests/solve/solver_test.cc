@@ -36,6 +36,25 @@ TEST(Solver, TheRoundingOfRayNumbersDependsOnTheSeed) {
   EXPECT_EQ(*first_step_rays.rbegin() - *first_step_rays.begin(), 1);
 }
 
+// What travels on is what phs sends on: only where arrived light is shown differs. So the flux that
+// arrives, is absorbed and is reflected is that of phs to the last ray: no bias in power.
+TEST(Solver, TheHierarchyKeepsThePowerOfFlatPhs) {
+  const SharedPatches patches = Share(MakeCornell(6));
+  SolverRun flat(patches, Budget(Method::kPhs, 100000)),
+      hier(patches, Budget(Method::kPhsHier, 100000));
+  ASSERT_TRUE(flat.ToTheEnd().ok() && hier.ToTheEnd().ok());
+  const Solution a = *flat.solver.MakeSnapshot().solution, b = *hier.solver.MakeSnapshot().solution;
+  EXPECT_EQ(a.hits, b.hits);
+  EXPECT_EQ(a.ledger.absorbed, b.ledger.absorbed);
+  EXPECT_FALSE(a.irradiance_lx == b.irradiance_lx);
+  Rgb power_a, power_b;
+  for (PatchIndex i = 0; i < patches->size(); ++i) {
+    power_a = power_a + a.radiosity_lm_per_m2[i] * patches->area_m2[i];
+    power_b = power_b + b.radiosity_lm_per_m2[i] * patches->area_m2[i];
+  }
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(power_b[c] / power_a[c], 1, 1e-12);
+}
+
 TEST(Solver, RestoredAfterAnyPassContinuesToTheSameBytes) {
   for (Method method : ShootingMethods()) {
     const SolveOptions options = Budget(method, 200000);
