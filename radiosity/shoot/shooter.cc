@@ -17,7 +17,7 @@ namespace lambert {
 namespace {
 
 // Changes whenever the same unit would give other bytes.
-constexpr char kCodeVersion[] = "shoot-4";
+constexpr char kCodeVersion[] = "shoot-5";
 
 class EmbreeShooter : public Shooter {
  public:
