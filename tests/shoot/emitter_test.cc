@@ -265,7 +265,6 @@ TEST_F(EmitterTest, SolidAngleRaysAreUniformInTheirPyramidAndKnowTheirCosine) {
 }
 
 TEST_F(EmitterTest, ProjectedAngleRaysFollowTheCosineLawInTheirPyramid) {
-  // Also where a pyramid is cut into pieces.
   for (const Hemisphere& hemisphere :
        {Hemisphere(4, 4, 1), Hemisphere(3, 3, 1), Hemisphere(4, 3, 2), Hemisphere(4, 4, 2)}) {
     const EmitterFrame frame = emitters_->Frame(0);
