@@ -18,8 +18,8 @@ bool LeastVarianceRule(const ShootOptions& options) {
   return options.pyramids.rule == DensityRule::kVariance || options.method == Method::kImportance;
 }
 
-// Counting takes 11 ns a patch of the scene, a node of the tree of targets 25 ns, of which some 16 are
-// met for each cell.
+// Counting takes 11 ns a patch of the scene, a node of the tree of targets 25 ns, of which some 16
+// are met for each cell.
 double DensityNs(const PatchSet& patches, const ShootOptions& options) {
   constexpr double kCountNs = 11, kNodeNs = 25, kNodesPerCell = 16;
   const double cells = options.pyramids.CellCount();
