@@ -1,7 +1,6 @@
 #include "bench/shoot_case.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
@@ -10,31 +9,48 @@
 #include "radiosity/core/digest.h"
 #include "radiosity/shoot/arrivals.h"
 #include "radiosity/shoot/flight.h"
+#include "radiosity/shoot/this_thread.h"
 #include "tests/support/scenes.h"
 
 namespace lambert {
 namespace {
 
-// Keeps the rays instead of tracing them.
+// Keeps the rays as they are launched, and their hits.
 class RecordingFlight : public Flight {
  public:
   RecordingFlight(const RayScene& scene, Arrivals& arrivals, UnitResult& result,
                   std::vector<RayBatch>& batches)
-      : Flight(scene, arrivals, result, /*watch=*/false), batches_(batches) {}
+      : Flight(scene, arrivals, result, /*watch=*/false), scene_(scene), batches_(batches) {}
   void Land() override {
-    batches_.push_back(batch());
+    scene_.Trace(batch());
+    if (batch().size > 0) batches_.push_back(batch());
+    LandTraced();
+  }
+
+ private:
+  const RayScene& scene_;
+  std::vector<RayBatch>& batches_;
+};
+
+// Forgets the rays, unless what they hit is asked for: what is left is the sampler.
+class SamplingFlight : public Flight {
+ public:
+  SamplingFlight(const RayScene& scene, Arrivals& arrivals, UnitResult& result,
+                 const std::vector<RayBatch>& traced)
+      : Flight(scene, arrivals, result, /*watch=*/false), traced_(traced) {}
+  void Land() override {
+    if (batch().size == 0) return;
+    const PatchIndex* hit = traced_[landed_++].hit;
+    if (RecordsHits()) {
+      std::copy_n(hit, batch().size, batch().hit);
+      LandTraced();
+    }
     batch().size = 0;
   }
 
  private:
-  std::vector<RayBatch>& batches_;
-};
-
-// Forgets the rays: what is left is the sampler.
-class SamplingFlight : public Flight {
- public:
-  using Flight::Flight;
-  void Land() override { batch().size = 0; }
+  const std::vector<RayBatch>& traced_;
+  size_t landed_ = 0;
 };
 
 // Deposits where recorded rays hit.
@@ -48,11 +64,12 @@ class DepositingFlight : public Flight {
   }
 };
 
+// Of this thread on a processor: others wait for them too.
 template <typename Work>
 double Nanoseconds(Work work) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = ThreadCpuSeconds();
   work();
-  return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+  return 1e9 * (ThreadCpuSeconds() - start);
 }
 
 void OrDie(const absl::Status& status) {
@@ -112,8 +129,7 @@ ShootCase::ShootCase(BenchScene& scene, const ShootOptions& options, uint32_t ra
     flight->Land();
   }
   std::vector<int64_t> hits(scene.patches->size());
-  for (RayBatch& batch : batches_) {
-    scene.scene->Trace(batch);
+  for (const RayBatch& batch : batches_) {
     rays_ += batch.size;
     for (int k = 0; k < batch.size; ++k) {
       if (batch.hit[k] >= 0) ++hits[batch.hit[k]];
@@ -141,8 +157,7 @@ StageTimes ShootCase::Stages() {
   StageTimes times;
   Arrivals arrivals(scene_.patches->size());
   UnitResult result;
-  auto sampling =
-      std::make_unique<SamplingFlight>(*scene_.scene, arrivals, result, /*watch=*/false);
+  auto sampling = std::make_unique<SamplingFlight>(*scene_.scene, arrivals, result, batches_);
   times.sample = Nanoseconds([&] { OrDie(launcher_->Launch(unit_, *sampling)); }) / rays_;
   times.trace = Nanoseconds([&] {
                   for (RayBatch& batch : batches_) scene_.scene->Trace(batch);

@@ -82,24 +82,33 @@ AdaptivePyramids SplitWhereWorthIs(const Hemisphere& hemisphere, const std::vect
   return result;
 }
 
-std::vector<uint32_t> CellRays(const std::vector<float>& densities, uint32_t ray_count,
-                               double offset) {
+CellSpans::CellSpans(const std::vector<float>& densities) : begin_(densities.size()) {
   double sum = 0;
   for (float density : densities) sum += density;
-  std::vector<uint32_t> rays(densities.size());
-  double cumulative = 0;
-  uint64_t before = 0;
+  const double length = 0x1p32 - static_cast<double>(densities.size());
+  double before = 0;
   for (size_t p = 0; p < densities.size(); ++p) {
-    cumulative += densities[p];
-    const uint64_t until =
-        p + 1 == densities.size()
-            ? ray_count
-            : std::min<uint64_t>(ray_count, static_cast<uint64_t>(
-                                                std::floor(cumulative / sum * ray_count + offset)));
-    rays[p] = static_cast<uint32_t>(until - before);
-    before = until;
+    // One more for each cell.
+    begin_[p] = static_cast<uint32_t>(before / sum * length) + static_cast<uint32_t>(p);
+    before += densities[p];
   }
-  return rays;
+}
+
+void VisitCells::Search(uint32_t ray) {
+  const uint32_t* begin = spans_.begin_.data();
+  const uint32_t count = std::min<uint32_t>(std::size(found_), ray_count_ - ray);
+  searched_ = ray;
+  // One after the other: what follows a search may have to wait for it, the next search need not.
+  for (uint32_t k = 0; k < count; ++k) {
+    // The last cell with no more than `ray` + k rays before it.
+    size_t cell = 0;
+    for (size_t left = spans_.begin_.size(); left > 1;) {
+      const size_t half = left / 2;
+      cell = RaysBefore(begin[cell + half]) <= ray + k ? cell + half : cell;
+      left -= half;
+    }
+    found_[k] = static_cast<int>(cell);
+  }
 }
 
 }  // namespace lambert

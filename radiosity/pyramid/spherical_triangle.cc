@@ -26,27 +26,6 @@ double LambertEdge(Vec3 from, Vec3 to) {
   return std::atan2(sine, Dot(from, to)) * normal.z / sine;
 }
 
-// Largest z on the great-circle arc between two unit vectors.
-double HighestOnArc(Vec3 p, Vec3 q) {
-  const Vec3 normal = Normalized(Cross(p, q));
-  // The highest point of the circle; it counts where it lies between p and q.
-  const Vec3 top = Vec3{0, 0, 1} - normal.z * normal;
-  if (Dot(Cross(p, top), normal) > 0 && Dot(Cross(top, q), normal) > 0) return Length(top);
-  return std::max(p.z, q.z);
-}
-
-template <typename Real>
-struct Vector {
-  Real x, y, z;
-  friend Vector operator+(Vector p, Vector q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
-  friend Vector operator-(Vector p, Vector q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-  friend Vector operator*(Real s, Vector p) { return {s * p.x, s * p.y, s * p.z}; }
-};
-template <typename Real>
-Real Dot(Vector<Real> p, Vector<Real> q) {
-  return p.x * q.x + p.y * q.y + p.z * q.z;
-}
-
 template <typename Real>
 struct SineCosineOf {
   Real sine, cosine;
@@ -114,6 +93,10 @@ SineCosine SinCos(double x) {
   return {result.sine, result.cosine};
 }
 
+double FluxFraction(Vec3 a, Vec3 b, Vec3 c) {
+  return (LambertEdge(a, b) + LambertEdge(b, c) + LambertEdge(c, a)) / (2 * std::numbers::pi);
+}
+
 SphericalTriangle::SphericalTriangle(Vec3 a, Vec3 b, Vec3 c) : c_(c) {
   const double alpha = AngleAt(a, b, c);
   arvo_.a = a;
@@ -123,13 +106,16 @@ SphericalTriangle::SphericalTriangle(Vec3 a, Vec3 b, Vec3 c) : c_(c) {
   arvo_.cos_alpha = std::cos(alpha);
   arvo_.cos_edge_c = Dot(a, b);
   arvo_.solid_angle = alpha + AngleAt(b, c, a) + AngleAt(c, a, b) - std::numbers::pi;
-  flux_fraction_ =
-      (LambertEdge(a, b) + LambertEdge(b, c) + LambertEdge(c, a)) / (2 * std::numbers::pi);
-  const bool holds_pole = Cross(a, b).z >= 0 && Cross(b, c).z >= 0 && Cross(c, a).z >= 0;
-  max_cosine_ =
-      holds_pole
-          ? 1.0
-          : std::min(1.0, std::max({HighestOnArc(a, b), HighestOnArc(b, c), HighestOnArc(c, a)}));
+  flux_fraction_ = FluxFraction(a, b, c);
+  pieces_ = CutOnDisk(a, b, c);
+}
+
+const DiskPiece& SphericalTriangle::PickOneOfMany(float& xi) const {
+  const auto after = std::upper_bound(pieces_.begin(), pieces_.end() - 1, xi,
+                                      [](float x, const DiskPiece& p) { return x < p.until; });
+  const float from = after == pieces_.begin() ? 0 : (after - 1)->until;
+  xi = std::clamp((xi - from) / (after->until - from), 0.0f, 1 - 0x1p-24f);
+  return *after;
 }
 
 Vec3 SphericalTriangle::SampleSolidAngle(double xi1, double xi2) const {

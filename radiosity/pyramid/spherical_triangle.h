@@ -1,7 +1,10 @@
 // A triangle on the unit hemisphere around +z, the base of one pyramid.
 #pragma once
 
+#include <vector>
+
 #include "radiosity/core/vec3.h"
+#include "radiosity/pyramid/disk_piece.h"
 
 namespace lambert {
 
@@ -21,6 +24,11 @@ struct ArvoConstants {
   double solid_angle = 0;               // [sr]
 };
 
+// f: the fraction of a Lambertian emitter's flux that leaves through a triangle, by Lambert's
+// polygon formula:  f = 1/(2 pi) sum_k gamma_k (n . Gamma_k) gamma_k: angle of edge k; Gamma_k:
+// unit normal of its plane.
+double FluxFraction(Vec3 a, Vec3 b, Vec3 c);
+
 class SphericalTriangle {
  public:
   // Requires: unit vectors with z >= 0, counter-clockwise seen from outside the sphere, no two
@@ -32,21 +40,25 @@ class SphericalTriangle {
   Vec3 c() const { return c_; }
   // Omega [sr], by Girard's formula.
   double solid_angle() const { return arvo_.solid_angle; }
-  // f_p: the fraction of a Lambertian emitter's flux that leaves through the triangle, by Lambert's
-  // polygon formula:  f = 1/(2 pi) sum_k gamma_k (n . Gamma_k)
-  // gamma_k: angle of edge k; Gamma_k: unit normal of its plane.
+  // f_p = FluxFraction of its corners.
   double flux_fraction() const { return flux_fraction_; }
-  // Largest z (cosine to the normal) of any direction in the triangle.
-  double max_cosine() const { return max_cosine_; }
 
+  // For directions with density ~ cos theta: the piece where a number xi in [0, 1) lies, and where
+  // it lies there.
+  const DiskPiece& PickPiece(float& xi) const {
+    return pieces_.size() == 1 ? pieces_[0] : PickOneOfMany(xi);
+  }
   // Direction with uniform density in solid angle (Arv95). xi1, xi2 in [0, 1).
   Vec3 SampleSolidAngle(double xi1, double xi2) const;
   const ArvoConstants& arvo() const { return arvo_; }
 
  private:
+  const DiskPiece& PickOneOfMany(float& xi) const;
+
   ArvoConstants arvo_;
   Vec3 c_;
-  double flux_fraction_ = 0, max_cosine_ = 0;
+  double flux_fraction_ = 0;
+  std::vector<DiskPiece> pieces_;
 };
 
 // Eight directions, one a lane.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "radiosity/pyramid/concentric_grid.h"
+#include "radiosity/pyramid/density.h"
 #include "radiosity/pyramid/hemisphere.h"
 #include "radiosity/shoot/emitter.h"
 #include "radiosity/shoot/options.h"
@@ -12,9 +13,16 @@ namespace lambert {
 
 // How the rays of a patch are divided over its hemisphere.
 struct Directions {
-  std::vector<float> densities;  // fraction of the rays for each cell, sum 1
+  CellSpans spans;  // as long as the fraction of the rays for each cell
   // The cells, where they are the patch's own; else those of the sampler.
   std::vector<const SphericalTriangle*> pyramids;
+};
+
+// Eight rays of any patches that leave through cells, lane by lane.
+struct CellRays8 {
+  RayNames8 names;
+  int32_t cells[8] = {};
+  const SphericalTriangle* pyramids[8] = {};  // CellSampler::Pyramid of the cells
 };
 
 // Immutable; any number of threads at once.
@@ -31,21 +39,24 @@ class CellSampler {
     return directions.pyramids.empty() ? fractions_[cell]
                                        : directions.pyramids[cell]->flux_fraction();
   }
+  // Null where the cells are squares.
+  const SphericalTriangle* Pyramid(const Directions& directions, int cell) const {
+    if (squares_) return nullptr;
+    return directions.pyramids.empty() ? &hemisphere_.pyramid(cell) : directions.pyramids[cell];
+  }
 
   // True where rays of one cell carry different flux.
   bool weighted() const { return weighted_; }
-  // Appends rays [begin, end) of a visit, ray begin + k through cells[k]. Writes to weight[slot]
-  // what the ray carries over the mean of its cell, where weighted(). Requires: room for them.
-  void Append(const EmitterFrame& frame, const Directions& directions, const int32_t* cells,
-              const RayNumbers& numbers, uint32_t begin, uint32_t end, RayBatch& batch,
-              float* weight) const;
+  // Appends `count` <= 8 rays. Writes to weight[slot] what the ray carries over the mean of its
+  // cell, where weighted(). Requires: eight valid lanes, room for `count` rays.
+  void Append(const EmitterFrame8& frames, const CellRays8& rays, const RandomNumbers8& numbers,
+              const RandomStream& stream, int count, RayBatch& batch, float* weight) const;
 
  private:
   const bool squares_, weighted_;
   const Hemisphere hemisphere_;
   const ConcentricGrid grid_;
   const HemisphereCells* const cells_;  // one of the two
-  std::vector<const SphericalTriangle*> pyramids_;
   std::vector<double> fractions_;
 };
 

@@ -9,6 +9,7 @@
 namespace lambert {
 namespace {
 
+constexpr double kRayNs = 250;  // a ray, all in all
 constexpr int64_t kCacheBytes = int64_t{256} << 20;
 // Angle [rad] under which targets are taken as points: this share of a cell's width.
 constexpr double kOpeningShare = 0.6;
@@ -17,10 +18,10 @@ bool LeastVarianceRule(const ShootOptions& options) {
   return options.pyramids.rule == DensityRule::kVariance || options.method == Method::kImportance;
 }
 
-// Measured (docs/benchmarks.md): counting takes 11 ns a patch of the scene, a node of the tree of
-// targets 25 ns, of which some 16 are met for each cell; a ray takes 250 ns.
+// Counting takes 11 ns a patch of the scene, a node of the tree of targets 25 ns, of which some 16
+// are met for each cell.
 double DensityNs(const PatchSet& patches, const ShootOptions& options) {
-  constexpr double kCountNs = 11, kNodeNs = 25, kNodesPerCell = 16, kRayNs = 250;
+  constexpr double kCountNs = 11, kNodeNs = 25, kNodesPerCell = 16;
   const double cells = options.pyramids.CellCount();
   if (options.method == Method::kHs98) return cells * options.pyramids.probes * kRayNs;
   if (LeastVarianceRule(options)) return cells * kNodesPerCell * kNodeNs;
@@ -36,7 +37,7 @@ int64_t MinRaysForDensities(const PatchSet& patches, const ShootOptions& options
   // Half of the rays probe, the others follow.
   if (options.method == Method::kHs97) return 2 * cells * pyramids.probes;
   // Kept densities also serve the passes to come, which shoot about twice as many rays again.
-  constexpr double kRayNs = 250, kShareOfTime = 0.1, kVisitsServed = 3;
+  constexpr double kShareOfTime = 0.1, kVisitsServed = 3;
   const double rays = DensityNs(patches, options) / (kRayNs * kShareOfTime * kVisitsServed);
   return std::max(cells, static_cast<int64_t>(std::llround(rays)));
 }
@@ -63,6 +64,7 @@ DirectionTable::DirectionTable(const PatchSet& patches, const RayScene& scene,
       hit_worth_(std::move(hit_worth)),
       min_rays_(MinRaysForDensities(patches, options)),
       sampler_(options.pyramids),
+      by_flux_(FromWorth(std::vector<double>(sampler_.fractions().size()))),
       kept_(patches.size()) {
   const bool probes = options.method == Method::kHs97 || options.method == Method::kHs98;
   if (probes) return;
@@ -92,14 +94,13 @@ std::vector<double> DirectionTable::Worth(PatchIndex patch) const {
   }
   // hs98: the probing rays are of no seed, so that the densities are those of the scene.
   const RandomStream stream{0, static_cast<uint32_t>(patch), 0, 0};
-  const std::vector<uint32_t> rays(cells.size(), static_cast<uint32_t>(options_.pyramids.probes));
-  return ProbeWorth(sampler_, scene_, emitters_.Frame(patch), stream, rays,
+  return ProbeWorth(sampler_, scene_, emitters_, patch, stream, options_.pyramids.probes,
                     {options_.pyramids.rule, &hit_worth_});
 }
 
 Directions DirectionTable::FromWorth(const std::vector<double>& worth) const {
-  return {CellDensities(sampler_.fractions(), worth, options_.pyramids.alpha1,
-                        options_.pyramids.alpha2),
+  return {CellSpans(CellDensities(sampler_.fractions(), worth, options_.pyramids.alpha1,
+                                  options_.pyramids.alpha2)),
           {}};
 }
 
@@ -112,24 +113,26 @@ Directions DirectionTable::Compute(PatchIndex patch) const {
   for (const SphericalTriangle* pyramid : split.pyramids) {
     fractions.push_back(pyramid->flux_fraction());
   }
-  return {CellDensities(fractions, split.worth, options_.pyramids.alpha1, options_.pyramids.alpha2),
+  return {CellSpans(CellDensities(fractions, split.worth, options_.pyramids.alpha1,
+                                  options_.pyramids.alpha2)),
           std::move(split.pyramids)};
 }
 
 std::shared_ptr<const Directions> DirectionTable::Get(PatchIndex patch) const {
-  std::atomic<const std::shared_ptr<const Directions>*>& slot = kept_[patch];
-  if (const auto* kept = slot.load(std::memory_order_acquire)) return *kept;
-  auto directions = std::make_shared<const Directions>(Compute(patch));
-  const auto bytes = static_cast<int64_t>(directions->densities.size() * sizeof(float) +
+  // Without an owner: no count to be shared by threads.
+  const auto lent = [](const Directions* kept) {
+    return std::shared_ptr<const Directions>(std::shared_ptr<void>(), kept);
+  };
+  std::atomic<const Directions*>& slot = kept_[patch];
+  if (const Directions* kept = slot.load(std::memory_order_acquire)) return lent(kept);
+  auto directions = std::make_unique<const Directions>(Compute(patch));
+  const auto bytes = static_cast<int64_t>(directions->spans.size() * sizeof(uint32_t) +
                                           directions->pyramids.size() * sizeof(void*));
-  if (kept_bytes_.fetch_add(bytes) + bytes <= kCacheBytes) {
-    auto copy = std::make_unique<const std::shared_ptr<const Directions>>(directions);
-    const std::shared_ptr<const Directions>* expected = nullptr;
-    if (slot.compare_exchange_strong(expected, copy.get(), std::memory_order_acq_rel)) {
-      copy.release();
-    }
-  }
-  return directions;
+  if (kept_bytes_.fetch_add(bytes) + bytes > kCacheBytes) return directions;
+  const Directions* expected = nullptr;
+  const bool first =
+      slot.compare_exchange_strong(expected, directions.get(), std::memory_order_acq_rel);
+  return lent(first ? directions.release() : expected);
 }
 
 }  // namespace lambert

@@ -39,7 +39,10 @@ class DirectionTable {
   const CellSampler& sampler() const { return sampler_; }
   int64_t min_rays() const { return min_rays_; }
   const std::vector<double>& hit_worth() const { return hit_worth_; }
-  // Of a patch: a function of the patch set and the options alone.
+  // The densities of f_p: those of cells that are all worth nothing.
+  const Directions& by_flux() const { return by_flux_; }
+  // Of a patch: a function of the patch set and the options alone. Lives as long as the table and
+  // the pointer.
   std::shared_ptr<const Directions> Get(PatchIndex patch) const;
   // Densities from what each cell is worth, by the options' weights.
   Directions FromWorth(const std::vector<double>& worth) const;
@@ -55,10 +58,11 @@ class DirectionTable {
   const std::vector<double> hit_worth_;
   const int64_t min_rays_;
   const CellSampler sampler_;
+  const Directions by_flux_;
   std::unique_ptr<const ClusterTree> clusters_;  // for counts
   std::unique_ptr<const TargetTree> targets_;    // for least variance
   // Filled once each; never replaced. Past kCacheBytes densities are computed at every visit.
-  mutable std::vector<std::atomic<const std::shared_ptr<const Directions>*>> kept_;
+  mutable std::vector<std::atomic<const Directions*>> kept_;
   mutable std::atomic<int64_t> kept_bytes_ = 0;
 };
 

@@ -41,72 +41,49 @@ inline Disk8 ConcentricDisk(Float8 u, Float8 v) {
   return {wide ? p : q, wide ? q : p};
 }
 
-// One frame for all lanes, as it lies.
-EmitterFrame8 Spread(const EmitterFrame& frame) {
-  EmitterFrame8 f;
-  for (int k = 0; k < 3; ++k) {
-    f.corner[k] = Broadcast8(frame.corner[k]);
-    f.edge1[k] = Broadcast8(frame.edge1[k]);
-    f.edge2[k] = Broadcast8(frame.edge2[k]);
-    f.x[k] = Broadcast8(frame.x[k]);
-    f.y[k] = Broadcast8(frame.y[k]);
-    f.z[k] = Broadcast8(frame.z[k]);
-  }
-  return f;
+// Frames lane by lane.
+EmitterFrame8 Gather(const EmitterFrame* const frames[8]) {
+  const float* rows[8];
+  for (int lane = 0; lane < 8; ++lane) rows[lane] = reinterpret_cast<const float*>(frames[lane]);
+  Float8 columns[16];
+  LoadColumns16(rows, columns);
+  const auto vector = [&](int k) {
+    return Vector<Float8>{columns[k], columns[k + 1], columns[k + 2]};
+  };
+  const Vector<Float8> x = vector(9), z = vector(12);
+  return {vector(0), vector(3), vector(6), x, Cross(z, x), z};
 }
 
-// Each puts eight rays from `slot` on, and may read and write slots after the last ray.
-inline void PutOrigins(const EmitterFrame8& f, Point8 point, RayBatch& batch, int slot) {
-  float* const out[3] = {batch.origin_x, batch.origin_y, batch.origin_z};
-  for (int k = 0; k < 3; ++k) {
-    Store(f.corner[k] + point.b1 * f.edge1[k] + point.b2 * f.edge2[k] + kOriginOffset * f.z[k],
-          out[k] + slot);
-  }
+// Each puts eight rays from `slot` on, and may write slots after the last ray.
+inline void PutOrigins(const EmitterFrame8& f, const RandomNumbers8& numbers, RayBatch& batch,
+                       int slot) {
+  const Point8 at = TrianglePoint(LoadFloat8(numbers.numbers[0]), LoadFloat8(numbers.numbers[1]));
+  const Vector<Float8> origin =
+      f.corner + at.b1 * f.edge1 + at.b2 * f.edge2 + Broadcast8(kOriginOffset) * f.z;
+  Store(origin.x, batch.origin_x + slot);
+  Store(origin.y, batch.origin_y + slot);
+  Store(origin.z, batch.origin_z + slot);
 }
 
-inline void PutDirections(const EmitterFrame8& f, Float8 x, Float8 y, Float8 z, RayBatch& batch,
-                          int slot) {
-  float* const out[3] = {batch.direction_x, batch.direction_y, batch.direction_z};
-  for (int k = 0; k < 3; ++k) Store(x * f.x[k] + y * f.y[k] + z * f.z[k], out[k] + slot);
+inline void PutDirections(const EmitterFrame8& f, Vector<Float8> local, RayBatch& batch, int slot) {
+  const Vector<Float8> direction = local.x * f.x + local.y * f.y + local.z * f.z;
+  Store(direction.x, batch.direction_x + slot);
+  Store(direction.y, batch.direction_y + slot);
+  Store(direction.z, batch.direction_z + slot);
 }
 
 // A point of the unit disk lifted to the hemisphere: uniform there, cosine law here.
-inline void PutDiskDirections(const EmitterFrame8& f, Disk8 disk, RayBatch& batch, int slot) {
+inline Vector<Float8> Lifted(Disk8 disk) {
   const Float8 left = 1 - disk.x * disk.x - disk.y * disk.y;
-  PutDirections(f, disk.x, disk.y, Root(left > 0 ? left : Float8{}), batch, slot);
+  return {disk.x, disk.y, Root(left > 0 ? left : Float8{})};
 }
 
-inline Point8 PatchPoint(const RandomNumbers8& random) {
-  return TrianglePoint(LoadFloat8(random.numbers[0]), LoadFloat8(random.numbers[1]));
-}
-
-template <typename Real>
-struct Vector {
-  Real x, y, z;
-};
-template <typename Real>
-Vector<Real> Cross(Vector<Real> a, Vector<Real> b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <typename Real>
-Vector<Real> Unit(Vector<Real> a) {
-  const Real length = Root(a.x * a.x + a.y * a.y + a.z * a.z);
-  return {a.x / length, a.y / length, a.z / length};
-}
-
-template <typename Real>
-struct Axes {
-  Vector<Real> x, y, z;
-};
-// The local frame of a triangle. In double: the cross product of two short edges would underflow in
-// float.
-template <typename Real>
-Axes<Real> AxesOf(Vector<Real> edge1, Vector<Real> edge2) {
-  Axes<Real> axes;
-  axes.z = Unit(Cross(edge1, edge2));
-  axes.x = Unit(edge1);
-  axes.y = Cross(axes.z, axes.x);
-  return axes;
+inline void PutCosineRays(const EmitterFrame8& f, const RandomNumbers8& numbers, RayBatch& batch,
+                          int slot) {
+  PutOrigins(f, numbers, batch, slot);
+  PutDirections(
+      f, Lifted(ConcentricDisk(LoadFloat8(numbers.numbers[2]), LoadFloat8(numbers.numbers[3]))),
+      batch, slot);
 }
 
 // Fills rays begin .. end in groups of eight: `place(slot, numbers)` for each group, also for the
@@ -122,139 +99,50 @@ inline void ForEachGroup(const RayNumbers& source, uint32_t begin, uint32_t end,
   }
 }
 
-// The same for rays through pyramids: `directions(ray, triangles, numbers, out)` makes eight.
-template <typename Directions>
-inline void ForEachPyramidGroup(const EmitterFrame& frame, PyramidOfRay pyramids,
-                                const RayNumbers& source, uint32_t begin, uint32_t end,
-                                RayBatch& batch, Directions directions) {
-  const EmitterFrame8 f = Spread(frame);
-  Directions8 d;
-  uint32_t ray = begin;
-  ForEachGroup(source, begin, end, batch, [&](int slot, const RandomNumbers8& random) {
-    const SphericalTriangle* triangles[8];
-    for (uint32_t lane = 0; lane < 8; ++lane) {
-      triangles[lane] = pyramids[std::min(ray + lane, end - 1) - begin];
-    }
-    directions(ray, triangles, random, d);
-    const auto in_float = [](const double* from) {
-      return ToFloat8(_mm256_load_pd(from), _mm256_load_pd(from + 4));
-    };
-    PutOrigins(f, PatchPoint(random), batch, slot);
-    PutDirections(f, in_float(d.x), in_float(d.y), in_float(d.z), batch, slot);
-    ray += 8;
-  });
+void Copy(Vec3 from, float to[3]) {
+  to[0] = static_cast<float>(from.x);
+  to[1] = static_cast<float>(from.y);
+  to[2] = static_cast<float>(from.z);
 }
 
 }  // namespace
 
 Emitters::Emitters(const PatchSet& patches, const RayScene& scene) {
-  triangles_.reserve(patches.size());
+  frames_.reserve(patches.size());
   for (const auto& corner : patches.corners) {
-    const Vec3 a = scene.ToTrace(corner[0]);
-    const Vec3 e1 = (corner[1] - corner[0]) * scene.scale();
-    const Vec3 e2 = (corner[2] - corner[0]) * scene.scale();
-    std::array<float, 9> triangle;
-    const Vec3 columns[3] = {a, e1, e2};
-    for (int k = 0; k < 3; ++k) {
-      triangle[3 * k] = static_cast<float>(columns[k].x);
-      triangle[3 * k + 1] = static_cast<float>(columns[k].y);
-      triangle[3 * k + 2] = static_cast<float>(columns[k].z);
-    }
-    triangles_.push_back(triangle);
+    EmitterFrame& frame = frames_.emplace_back();
+    Copy(scene.ToTrace(corner[0]), frame.corner);
+    // In double: the cross product of two short edges would underflow in float.
+    const Vec3 edge1 = corner[1] - corner[0], edge2 = corner[2] - corner[0];
+    Copy(edge1 * scene.scale(), frame.edge1);
+    Copy(edge2 * scene.scale(), frame.edge2);
+    Copy(Normalized(edge1), frame.x);
+    Copy(Normalized(Cross(edge1, edge2)), frame.z);
   }
   for (const PointLight& light : patches.point_lights) {
-    const Vec3 p = scene.ToTrace(light.position);
-    point_lights_.push_back(
-        {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    Copy(scene.ToTrace(light.position), point_lights_.emplace_back().data());
   }
-}
-
-EmitterFrame Emitters::Frame(PatchIndex emitter) const {
-  const std::array<float, 9>& t = triangles_[emitter];
-  EmitterFrame f;
-  for (int k = 0; k < 3; ++k) {
-    f.corner[k] = t[k];
-    f.edge1[k] = t[3 + k];
-    f.edge2[k] = t[6 + k];
-  }
-  const Axes<double> axes = AxesOf<double>({t[3], t[4], t[5]}, {t[6], t[7], t[8]});
-  const Vector<double> rows[3] = {axes.x, axes.y, axes.z};
-  float* out[3] = {f.x, f.y, f.z};
-  for (int k = 0; k < 3; ++k) {
-    out[k][0] = static_cast<float>(rows[k].x);
-    out[k][1] = static_cast<float>(rows[k].y);
-    out[k][2] = static_cast<float>(rows[k].z);
-  }
-  return f;
 }
 
 EmitterFrame8 Emitters::Frames(const uint32_t emitters[8]) const {
-  Float8 rows[8], last;
-  for (int lane = 0; lane < 8; ++lane) {
-    const std::array<float, 9>& t = triangles_[emitters[lane]];
-    rows[lane] = LoadFloat8(t.data());
-    last[lane] = t[8];
-  }
-  Transpose8(rows);
-  EmitterFrame8 f;
-  for (int k = 0; k < 3; ++k) {
-    f.corner[k] = rows[k];
-    f.edge1[k] = rows[3 + k];
-  }
-  f.edge2[0] = rows[6];
-  f.edge2[1] = rows[7];
-  f.edge2[2] = last;
-  const auto half = [&](auto widen) {
-    return AxesOf<Double4>({widen(f.edge1[0]), widen(f.edge1[1]), widen(f.edge1[2])},
-                           {widen(f.edge2[0]), widen(f.edge2[1]), widen(f.edge2[2])});
-  };
-  const Axes<Double4> low = half(LowToDouble), high = half(HighToDouble);
-  const auto narrow = [](const Vector<Double4>& a, const Vector<Double4>& b, Float8 out[3]) {
-    out[0] = ToFloat8(a.x, b.x);
-    out[1] = ToFloat8(a.y, b.y);
-    out[2] = ToFloat8(a.z, b.z);
-  };
-  narrow(low.x, high.x, f.x);
-  narrow(low.y, high.y, f.y);
-  narrow(low.z, high.z, f.z);
-  return f;
+  const EmitterFrame* frames[8];
+  for (int lane = 0; lane < 8; ++lane) frames[lane] = &frames_[emitters[lane]];
+  return Gather(frames);
 }
 
 void AppendCosineRays(const EmitterFrame8& frames, const RandomNumbers8& numbers, int count,
                       RayBatch& batch) {
-  PutOrigins(frames, PatchPoint(numbers), batch, batch.size);
-  PutDiskDirections(frames,
-                    ConcentricDisk(LoadFloat8(numbers.numbers[2]), LoadFloat8(numbers.numbers[3])),
-                    batch, batch.size);
+  PutCosineRays(frames, numbers, batch, batch.size);
   batch.size += count;
 }
 
 void AppendCosineRays(const EmitterFrame& frame, const RayNumbers& numbers, uint32_t begin,
                       uint32_t end, RayBatch& batch) {
-  const EmitterFrame8 f = Spread(frame);
+  const EmitterFrame* one[8];
+  std::fill(std::begin(one), std::end(one), &frame);
+  const EmitterFrame8 f = Gather(one);
   ForEachGroup(numbers, begin, end, batch, [&](int slot, const RandomNumbers8& random) {
-    PutOrigins(f, PatchPoint(random), batch, slot);
-    PutDiskDirections(f,
-                      ConcentricDisk(LoadFloat8(random.numbers[2]), LoadFloat8(random.numbers[3])),
-                      batch, slot);
-  });
-}
-
-void AppendGridRays(const EmitterFrame& frame, int side, const int32_t* cells,
-                    const RayNumbers& numbers, uint32_t begin, uint32_t end, RayBatch& batch) {
-  const EmitterFrame8 f = Spread(frame);
-  const int before = batch.size, last = static_cast<int>(end - begin) - 1;
-  const float width = 1.0f / static_cast<float>(side);
-  ForEachGroup(numbers, begin, end, batch, [&](int slot, const RandomNumbers8& random) {
-    Int8 cell;
-    for (int lane = 0; lane < 8; ++lane) cell[lane] = cells[std::min(slot - before + lane, last)];
-    // Cells are few: half a cell keeps the quotient away from whole numbers.
-    const Int8 row =
-        __builtin_convertvector((ToFloat8(cell) + 0.5f) / static_cast<float>(side), Int8);
-    const Float8 u = (ToFloat8(cell - row * side) + LoadFloat8(random.numbers[2])) * width;
-    const Float8 v = (ToFloat8(row) + LoadFloat8(random.numbers[3])) * width;
-    PutOrigins(f, PatchPoint(random), batch, slot);
-    PutDiskDirections(f, ConcentricDisk(u, v), batch, slot);
+    PutCosineRays(f, random, batch, slot);
   });
 }
 
@@ -276,51 +164,62 @@ void AppendSphereRays(const float position[3], const RayNumbers& numbers, uint32
   });
 }
 
-void AppendSolidAngleRays(const EmitterFrame& frame, PyramidOfRay pyramids,
-                          const RayNumbers& numbers, uint32_t begin, uint32_t end, RayBatch& batch,
+void AppendSolidAngleRays(const EmitterFrame8& frames, const SphericalTriangle* const pyramids[8],
+                          const RandomNumbers8& numbers, int count, RayBatch& batch,
                           float* cosine) {
-  ForEachPyramidGroup(frame, pyramids, numbers, begin, end, batch,
-                      [&](uint32_t, const SphericalTriangle* const triangles[8],
-                          const RandomNumbers8& random, Directions8& d) {
-                        SampleSolidAngle8(triangles, random.numbers[2], random.numbers[3], d);
-                        for (int lane = 0; lane < 8; ++lane) {
-                          cosine[batch.size + lane] = static_cast<float>(std::max(0.0, d.z[lane]));
-                        }
-                      });
+  Directions8 d;
+  SampleSolidAngle8(pyramids, numbers.numbers[2], numbers.numbers[3], d);
+  const auto in_float = [](const double* from) {
+    return ToFloat8(_mm256_load_pd(from), _mm256_load_pd(from + 4));
+  };
+  const Vector<Float8> local{in_float(d.x), in_float(d.y), in_float(d.z)};
+  PutOrigins(frames, numbers, batch, batch.size);
+  PutDirections(frames, local, batch, batch.size);
+  Store(local.z > 0 ? local.z : Float8{}, cosine + batch.size);
+  batch.size += count;
 }
 
-void AppendProjectedAngleRays(const EmitterFrame& frame, PyramidOfRay pyramids,
-                              const RayNumbers& numbers, uint32_t begin, uint32_t end,
-                              RayBatch& batch) {
-  ForEachPyramidGroup(frame, pyramids, numbers, begin, end, batch,
-                      [&](uint32_t ray, const SphericalTriangle* const triangles[8],
-                          const RandomNumbers8& random, Directions8& d) {
-                        SampleSolidAngle8(triangles, random.numbers[2], random.numbers[3], d);
-                        double highest[8];
-                        for (int lane = 0; lane < 8; ++lane)
-                          highest[lane] = triangles[lane]->max_cosine();
-                        // Accepted with probability cos theta / max cos theta; the bound keeps a
-                        // broken triangle from looping for ever and is never reached otherwise
-                        // (acceptance is over 1/4).
-                        uint32_t open = 0xFF;
-                        for (uint32_t retry = 0; retry < 1000 && open != 0; ++retry) {
-                          RandomNumbers8 again;
-                          FillRandomNumbers(numbers.stream(), ray, again, RandomPurpose::kRetry,
-                                            retry);
-                          Directions8 next;
-                          SampleSolidAngle8(triangles, again.numbers[0], again.numbers[1], next);
-                          for (int lane = 0; lane < 8; ++lane) {
-                            if ((open >> lane & 1) == 0) continue;
-                            if (again.numbers[2][lane] * highest[lane] < d.z[lane]) {
-                              open &= ~(1u << lane);
-                              continue;
-                            }
-                            d.x[lane] = next.x[lane];
-                            d.y[lane] = next.y[lane];
-                            d.z[lane] = next.z[lane];
-                          }
-                        }
-                      });
+void AppendProjectedAngleRays(const EmitterFrame8& frames,
+                              const SphericalTriangle* const pyramids[8],
+                              const RandomNumbers8& numbers, const RandomStream& stream,
+                              const RayNames8& names, int count, RayBatch& batch) {
+  alignas(32) float first[8];
+  const DiskPiece* of_lane[8];
+  for (int lane = 0; lane < 8; ++lane) {
+    first[lane] = numbers.numbers[2][lane];
+    of_lane[lane] = &pyramids[lane]->PickPiece(first[lane]);
+  }
+  const DiskPiece8 pieces(of_lane);
+  DiskTrial trial = pieces.Try(LoadFloat8(first), LoadFloat8(numbers.numbers[3]));
+  // Most pieces take over 2/5 of all trials; the bound keeps a broken one from looping for ever.
+  // Each four numbers are two trials.
+  RandomNumbers8 more;
+  for (uint32_t retry = 0; retry < 100000 && AnyLane(~trial.inside); ++retry) {
+    const uint32_t pair = 2 * (retry % 2);
+    if (pair == 0) FillRandomNumbers(stream, names, more, RandomPurpose::kRetry, retry / 2);
+    const DiskTrial next =
+        pieces.Try(LoadFloat8(more.numbers[pair]), LoadFloat8(more.numbers[pair + 1]));
+    trial.direction.x = trial.inside ? trial.direction.x : next.direction.x;
+    trial.direction.y = trial.inside ? trial.direction.y : next.direction.y;
+    trial.direction.z = trial.inside ? trial.direction.z : next.direction.z;
+    trial.inside |= next.inside;
+  }
+  PutOrigins(frames, numbers, batch, batch.size);
+  PutDirections(frames, trial.direction, batch, batch.size);
+  batch.size += count;
+}
+
+void AppendGridRays(const EmitterFrame8& frames, int side, const int32_t cells[8],
+                    const RandomNumbers8& numbers, int count, RayBatch& batch) {
+  const float width = 1.0f / static_cast<float>(side);
+  const Int8 cell = LoadInt8(cells);
+  // Cells are few: half a cell keeps the product away from whole numbers.
+  const Int8 row = __builtin_convertvector((ToFloat8(cell) + 0.5f) * width, Int8);
+  const Float8 u = (ToFloat8(cell - row * side) + LoadFloat8(numbers.numbers[2])) * width;
+  const Float8 v = (ToFloat8(row) + LoadFloat8(numbers.numbers[3])) * width;
+  PutOrigins(frames, numbers, batch, batch.size);
+  PutDirections(frames, Lifted(ConcentricDisk(u, v)), batch, batch.size);
+  batch.size += count;
 }
 
 }  // namespace lambert

@@ -13,29 +13,29 @@
 
 namespace lambert {
 
-// A patch in trace coordinates and its local frame (z = normal), ready for a visit.
-struct EmitterFrame {
+// A patch in trace coordinates and its local frame (z = normal, y = z x x): one cache line.
+struct alignas(64) EmitterFrame {
   float corner[3], edge1[3], edge2[3];
-  float x[3], y[3], z[3];
+  float x[3], z[3];
 };
 
 // Eight of them, lane by lane.
 struct EmitterFrame8 {
-  Float8 corner[3], edge1[3], edge2[3];
-  Float8 x[3], y[3], z[3];
+  Vector<Float8> corner, edge1, edge2;
+  Vector<Float8> x, y, z;
 };
 
-// The frames of all patches, compact; point lights have a position only. Immutable.
+// The frames of all patches; point lights have a position only. Immutable.
 class Emitters {
  public:
   Emitters(const PatchSet& patches, const RayScene& scene);
 
-  PatchIndex patch_count() const { return static_cast<PatchIndex>(triangles_.size()); }
+  PatchIndex patch_count() const { return static_cast<PatchIndex>(frames_.size()); }
   PatchIndex size() const { return patch_count() + static_cast<PatchIndex>(point_lights_.size()); }
   bool IsPointLight(PatchIndex emitter) const { return emitter >= patch_count(); }
   // Requires: emitter < patch_count().
-  EmitterFrame Frame(PatchIndex emitter) const;
-  // Frames of eight patches, each equal to Frame of its emitter.
+  const EmitterFrame& Frame(PatchIndex emitter) const { return frames_[emitter]; }
+  void Prefetch(PatchIndex emitter) const { __builtin_prefetch(&frames_[emitter]); }
   EmitterFrame8 Frames(const uint32_t emitters[8]) const;
   // Requires: IsPointLight(emitter).
   const float* Position(PatchIndex emitter) const {
@@ -43,7 +43,7 @@ class Emitters {
   }
 
  private:
-  std::vector<std::array<float, 9>> triangles_;  // corner 0, edge to 1, edge to 2
+  std::vector<EmitterFrame> frames_;
   std::vector<std::array<float, 3>> point_lights_;
 };
 
@@ -52,28 +52,30 @@ class Emitters {
 // Uniform on the patch, cosine law (figure 2 of JPS00; the direction by SC97's concentric map).
 void AppendCosineRays(const EmitterFrame& frame, const RayNumbers& numbers, uint32_t begin,
                       uint32_t end, RayBatch& batch);
-// The same for `count` <= 8 rays of any patches, each with its frame and its numbers.
-void AppendCosineRays(const EmitterFrame8& frames, const RandomNumbers8& numbers, int count,
-                      RayBatch& batch);
 // Uniform over the sphere.
 void AppendSphereRays(const float position[3], const RayNumbers& numbers, uint32_t begin,
                       uint32_t end, RayBatch& batch);
 
-// Ray begin + k starts uniformly on the patch and leaves through *pyramids[k].
-using PyramidOfRay = const SphericalTriangle* const*;
-// Uniform in the solid angle of the pyramid (figure 7). Writes cos theta of the ray in each slot of
-// the batch to cosine[slot] (RayBatch::kSlots values).
-void AppendSolidAngleRays(const EmitterFrame& frame, PyramidOfRay pyramids,
-                          const RayNumbers& numbers, uint32_t begin, uint32_t end, RayBatch& batch,
-                          float* cosine);
-// The same with density proportional to cos theta inside the pyramid, by rejection.
-void AppendProjectedAngleRays(const EmitterFrame& frame, PyramidOfRay pyramids,
-                              const RayNumbers& numbers, uint32_t begin, uint32_t end,
-                              RayBatch& batch);
+// Each appends `count` <= 8 rays of any patches, lane by lane, and may write to eight slots: the
+// frames of their patches, their numbers, and what they leave through. They start uniformly on the
+// patch. Requires: eight lanes that are valid, room for `count` rays.
 
-// Ray begin + k leaves through cell cells[k] of a ConcentricGrid of `side` by `side` cells, with
-// density proportional to cos theta inside it.
-void AppendGridRays(const EmitterFrame& frame, int side, const int32_t* cells,
-                    const RayNumbers& numbers, uint32_t begin, uint32_t end, RayBatch& batch);
+// By the cosine law.
+void AppendCosineRays(const EmitterFrame8& frames, const RandomNumbers8& numbers, int count,
+                      RayBatch& batch);
+// Uniform in the solid angle of a pyramid (figure 7). Writes cos theta of the ray in each slot of
+// the batch to cosine[slot] (RayBatch::kSlots values).
+void AppendSolidAngleRays(const EmitterFrame8& frames, const SphericalTriangle* const pyramids[8],
+                          const RandomNumbers8& numbers, int count, RayBatch& batch, float* cosine);
+// With density proportional to cos theta inside a pyramid, by rejection on the disk. `stream`,
+// `names`: whose rays they are, for the numbers of further trials.
+void AppendProjectedAngleRays(const EmitterFrame8& frames,
+                              const SphericalTriangle* const pyramids[8],
+                              const RandomNumbers8& numbers, const RandomStream& stream,
+                              const RayNames8& names, int count, RayBatch& batch);
+// Through a cell of a ConcentricGrid of `side` by `side` cells, with density proportional to cos
+// theta inside it.
+void AppendGridRays(const EmitterFrame8& frames, int side, const int32_t cells[8],
+                    const RandomNumbers8& numbers, int count, RayBatch& batch);
 
 }  // namespace lambert

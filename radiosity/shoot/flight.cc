@@ -5,7 +5,7 @@
 namespace lambert {
 
 uint32_t Flight::Room() {
-  if (batch_.size == RayBatch::kCapacity) Land();
+  LandIfFull();
   return static_cast<uint32_t>(RayBatch::kCapacity - batch_.size);
 }
 
@@ -42,8 +42,9 @@ void Flight::LandTraced() {
   constexpr int kAhead = 32;  // deposits are random accesses: fetch them early
   Long4 shot{}, escaped{};
   for (int k = 0; k < batch_.size; ++k) {
-    const PatchIndex next = batch_.hit[std::min(k + kAhead, batch_.size - 1)];
-    if (next >= 0) arrivals_.Prefetch(next);
+    const int next = std::min(k + kAhead, batch_.size - 1);
+    if (batch_.hit[next] >= 0 && flux_[next][3] != 0) arrivals_.Prefetch(batch_.hit[next]);
+    if (flux_[k][3] == 0) continue;
     shot += flux_[k];
     if (batch_.hit[k] >= 0) {
       arrivals_.Add(batch_.hit[k], flux_[k]);
@@ -55,15 +56,22 @@ void Flight::LandTraced() {
     result_.shot[c] += shot[c];
     result_.escaped[c] += escaped[c];
   }
-  for (int k = 0; watch_ && k < batch_.size; ++k) {
+  result_.rays += shot[3];
+  if (watch_) Tell();
+  for (int k = 0; hits_ != nullptr && k < batch_.size; ++k) {
+    hits_->push_back({cell_[k], batch_.hit[k]});
+  }
+  if (rests_ != nullptr) Rest();
+  batch_.size = 0;
+}
+
+void Flight::Tell() {
+  for (int k = 0; k < batch_.size; ++k) {
     if (seer_[k] >= 0 && batch_.hit[k] >= 0) {
       result_.sightings.push_back({seer_[k], cell_[k], batch_.hit[k], 1});
     }
     seer_[k] = kNoPatch;
   }
-  if (rests_ != nullptr) Rest();
-  result_.rays += batch_.size;
-  batch_.size = 0;
 }
 
 }  // namespace lambert

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <vector>
 
 #include "radiosity/core/lanes.h"
 #include "radiosity/shoot/arrivals.h"
@@ -34,11 +35,40 @@ struct RayDeal {
   Long4 Of(int64_t ray) const { return quotient - (remainder > ray); }
 };
 
+// Deals r, g, b quanta, which each ray carries on the average, over rays that follow each other:
+// each takes what lies between the nearest whole numbers of all before it and of all with it. So
+// rays lose nothing of what they share, up to 2^53 quanta; beyond, a double rounds. Requires: |sum|
+// < 2^63.
+class MeanDeal {
+ public:
+  // The first that asks comes after `before` others.
+  MeanDeal(Double4 mean, uint32_t before)
+      : mean_(mean), count_(before), dealt_(Nearest(mean * count_)) {}
+  Long4 Next() {
+    const Double4 until = Nearest(mean_ * ++count_), share = until - dealt_;
+    dealt_ = until;
+    const int64_t r = static_cast<int64_t>(share[0]), g = static_cast<int64_t>(share[1]),
+                  b = static_cast<int64_t>(share[2]);
+    return Long4{r, g, b, 1};
+  }
+
+ private:
+  Double4 mean_;
+  double count_;
+  Double4 dealt_;
+};
+
 // The nearest whole number, halves away from zero, as std::llround has it. Requires: |x| < 2^63.
 inline int64_t RoundedQuanta(double x) {
   constexpr double kBelowHalf = 0.5 - 0x1p-54;  // the sum rounds up where x ends in a half
   return static_cast<int64_t>(x + std::copysign(kBelowHalf, x));
 }
+
+// That a ray through a cell met a patch, or none (RayBatch::hit).
+struct CellHit {
+  int32_t cell = 0;
+  PatchIndex hit = kEscaped;
+};
 
 // One thread at a time. What lands is added to `arrivals` and `result`, which must outlive it.
 class Flight {
@@ -62,31 +92,43 @@ class Flight {
 
   RayBatch& batch() { return batch_; }
   float* weight() { return weight_; }  // by slot; room for a sampler
-  int32_t* cell() { return cell_; }    // by slot; room for a sampler
   // Rays that fit before the batch has to land; lands it when none fits.
   uint32_t Room();
-  void SetFlux(int slot, const RayDeal& deal, int64_t ray) {
-    flux_[slot] = deal.Of(ray);
+  // What the ray of a slot carries: r, g, b and itself, 1. A ray that carries nothing, 0 of itself,
+  // only looks: it is not counted and what it hits is not hit.
+  void SetFlux(int slot, Long4 flux) {
+    flux_[slot] = flux;
     if (rests_ != nullptr) visit_of_[slot] = visit_;
   }
   // Deals flux to rays [begin, end) from `slot` on.
   void SetFlux(int slot, const RayDeal& deal, uint32_t begin, uint32_t end) {
-    for (uint32_t ray = begin; ray < end; ++ray) SetFlux(slot++, deal, ray);
+    for (uint32_t ray = begin; ray < end; ++ray) SetFlux(slot++, deal.Of(ray));
   }
-  // Says whose ray is in a slot, and that what it hits through cell()[slot] is to be told.
-  void Watch(int slot, PatchIndex emitter) { seer_[slot] = emitter; }
+  // Says whose ray is in a slot, and through which cell it goes.
+  void SetSeer(int slot, PatchIndex emitter, int32_t cell) {
+    seer_[slot] = emitter;
+    cell_[slot] = cell;
+  }
+  // What rays through cells hit is appended to `hits`, ray by ray, from the next landing on; null:
+  // no longer.
+  void RecordHits(std::vector<CellHit>* hits) { hits_ = hits; }
   // Multiplies the flux of slots begin .. end by their weights, rounded to the nearest quantum.
   void ApplyWeights(int begin, int end);
+  void LandIfFull() {
+    if (batch_.size == RayBatch::kCapacity) Land();
+  }
   // Traces, deposits and empties the batch.
   virtual void Land();
 
  protected:
+  bool RecordsHits() const { return hits_ != nullptr; }
   // Land for rays that are traced. Requires: every ray of the batch has its hit.
   void LandTraced();
 
  private:
   // Where the rays come to rest.
   void Rest();
+  void Tell();
 
   const RayScene& scene_;
   Arrivals& arrivals_;
@@ -96,10 +138,11 @@ class Flight {
   double unit_rays_per_m2_ = 0;
   Arrivals* rests_ = nullptr;  // null: rays rest where they arrive
   const Visit* visit_ = nullptr;
+  std::vector<CellHit>* hits_ = nullptr;
   RayBatch batch_;
   alignas(64) float weight_[RayBatch::kSlots];
   int32_t cell_[RayBatch::kSlots];
-  PatchIndex seer_[RayBatch::kSlots];         // emitter of a ray that is watched, or kNoPatch
+  PatchIndex seer_[RayBatch::kSlots];         // emitter of a ray through a cell, or kNoPatch
   const Visit* visit_of_[RayBatch::kSlots];   // where rays come to rest elsewhere
   alignas(64) Long4 flux_[RayBatch::kSlots];  // r, g, b, 1
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -25,211 +26,165 @@ absl::StatusOr<std::unique_ptr<Launcher>> Launcher::Create(const PatchSet& patch
   return launcher;
 }
 
-// Cosine rays of patches, packed eight to a group whatever visits they are of: a group costs the
-// same however few of its rays are used.
-class Launcher::CosineRays {
+// Where the systematic rounding of each visit starts, eight visits at once.
+class Launcher::Offsets {
  public:
-  CosineRays(const Launcher& launcher, const WorkUnit& unit, Flight& flight)
-      : emitters_(launcher.emitters_),
-        sequence_(launcher.options_.sequence),
-        stream_{unit.seed, 0, unit.step, unit.pass},
-        flight_(flight) {}
+  explicit Offsets(const WorkUnit& unit) : unit_(unit) {}
 
-  // The visit's last rays may wait for others: until Finish.
-  void Shoot(const Visit& visit) {
-    if (visit.ray_begin == visit.ray_end) return;
-    const RayDeal deal(visit.quanta, visit.ray_count);
-    uint32_t ray = visit.ray_begin;
-    while (ray < visit.ray_end) {
-      if (waiting_ == 0 && visit.ray_end - ray >= 8) {
-        ray = ShootGroups(visit, deal, ray);
-        continue;
-      }
-      const auto room = flight_.Room() - static_cast<uint32_t>(waiting_);
-      const int slot = flight_.batch().size + waiting_;
-      const uint32_t count =
-          std::min({8 - static_cast<uint32_t>(waiting_), visit.ray_end - ray, room});
-      flight_.SetFlux(slot, deal, ray, ray + count);
-      for (uint32_t k = 0; k < count; ++k, ++waiting_) {
-        names_.emitter[waiting_] = static_cast<uint32_t>(visit.emitter);
-        names_.ray[waiting_] = ray + k;
-      }
-      ray += count;
-      if (waiting_ == 8 || count == room) Finish();
-    }
-  }
-
-  // Launches the rays that wait.
-  void Finish() {
-    if (waiting_ == 0) return;
-    for (int lane = waiting_; lane < 8; ++lane) {
-      names_.emitter[lane] = names_.emitter[0];
-      names_.ray[lane] = names_.ray[0];
-    }
-    RandomNumbers8 numbers;
-    FillRayNumbers(stream_, sequence_, names_, numbers);
-    AppendCosineRays(emitters_.Frames(names_.emitter), numbers, waiting_, flight_.batch());
-    waiting_ = 0;
+  // Of the visit's only stage, or of its first (0) and second (1).
+  uint32_t Of(size_t visit, int stage) {
+    if (visit / 8 != block_) Fill(visit / 8);
+    return bits_.bits[stage][visit % 8];
   }
 
  private:
-  // Whole groups of one visit from `ray` on. Returns the first ray after. Requires: none waits.
-  uint32_t ShootGroups(const Visit& visit, const RayDeal& deal, uint32_t ray) {
-    RandomStream stream = stream_;
-    stream.emitter = static_cast<uint32_t>(visit.emitter);
-    const RayNumbers numbers(stream, sequence_);
-    const EmitterFrame frame = emitters_.Frame(visit.emitter);
-    while (visit.ray_end - ray >= 8) {
-      const uint32_t until = ray + std::min(flight_.Room(), (visit.ray_end - ray) & ~7u);
-      const int slot = flight_.batch().size;
-      AppendCosineRays(frame, numbers, ray, until, flight_.batch());
-      flight_.SetFlux(slot, deal, ray, until);
-      ray = until;
+  void Fill(size_t block) {
+    block_ = block;
+    RayNames8 names{};
+    for (size_t k = 8 * block; k < std::min(8 * block + 8, unit_.visits.size()); ++k) {
+      names.emitter[k % 8] = static_cast<uint32_t>(unit_.visits[k].emitter);
     }
-    return ray;
+    FillRandomBits({unit_.seed, 0, unit_.step, unit_.pass}, names, bits_,
+                   RandomPurpose::kPyramidOffset);
   }
 
-  const Emitters& emitters_;
-  const Sequence sequence_;
-  const RandomStream stream_;  // of the unit
-  Flight& flight_;
-  RayNames8 names_;  // of the rays that wait; their flux is in the slots after the batch's last ray
-  int waiting_ = 0;
+  const WorkUnit& unit_;
+  size_t block_ = std::numeric_limits<size_t>::max();
+  RandomBits8 bits_;
 };
+
+constexpr size_t kVisitsAhead = 16;  // tracing pushes them out of the cache: fetch them early
 
 absl::Status Launcher::Launch(const WorkUnit& unit, Flight& flight) const {
   if (unit.pass >= 1u << 16) {
     return MakeError(absl::StatusCode::kInvalidArgument,
                      {"FIELD_INVALID", "work unit", "pass is 65536 or more", "use fewer passes"});
   }
-  CosineRays cosine_rays(*this, unit, flight);
-  for (const Visit& visit : unit.visits) {
+  const RandomStream stream{unit.seed, 0, unit.step, unit.pass};
+  Volley volley(emitters_, directions_ == nullptr ? nullptr : &directions_->sampler(), stream,
+                options_.sequence, flight);
+  Offsets offsets(unit);
+  std::vector<CellHit> seen;
+  if (options_.method == Method::kHs97) seen = ShootProbes(unit, offsets, volley, flight);
+  absl::Span<const CellHit> unread(seen);
+  for (size_t k = 0; k < unit.visits.size(); ++k) {
+    const Visit& visit = unit.visits[k];
+    __builtin_prefetch(&visit + kVisitsAhead);
     if (!IsPossible(visit)) {
       return MakeError(absl::StatusCode::kInvalidArgument,
                        {"FIELD_INVALID", "work unit, emitter " + std::to_string(visit.emitter),
                         "its rays or quanta are out of range", "send units of this patch set"});
     }
     flight.Begin(visit);
-    const bool point = emitters_.IsPointLight(visit.emitter);
-    const bool divided =
-        directions_ != nullptr && !point && visit.ray_count >= directions_->min_rays();
-    if (!divided && !point) {
-      cosine_rays.Shoot(visit);
-      continue;
-    }
-    cosine_rays.Finish();
-    const RandomStream stream{unit.seed, static_cast<uint32_t>(visit.emitter), unit.step,
-                              unit.pass};
-    const RayNumbers numbers(stream, options_.sequence);
-    if (point) {
-      ShootSphere(visit, numbers, flight);
+    if (emitters_.IsPointLight(visit.emitter)) {
+      volley.Finish();
+      ShootSphere(visit, stream, flight);
+    } else if (!IsDivided(visit)) {
+      volley.ShootCosine(visit);
     } else if (options_.method == Method::kHs97) {
-      ShootProbing(visit, numbers, flight);
+      const uint32_t probes = ProbingStage(visit).count;
+      ShootFollowing(visit, unread.first(probes), offsets.Of(k, 1), volley);
+      unread.remove_prefix(probes);
     } else {
-      ShootDivided(visit, numbers, flight);
+      ShootDivided(visit, offsets.Of(k, 0), volley);
     }
   }
-  cosine_rays.Finish();
+  volley.Finish();
   return absl::OkStatus();
 }
 
-void Launcher::ShootSphere(const Visit& visit, const RayNumbers& numbers, Flight& flight) const {
+void Launcher::ShootSphere(const Visit& visit, RandomStream stream, Flight& flight) const {
+  stream.emitter = static_cast<uint32_t>(visit.emitter);
+  const RayNumbers numbers(stream, options_.sequence);
   for (uint32_t ray = visit.ray_begin; ray < visit.ray_end;) {
     const uint32_t until = ray + std::min(flight.Room(), visit.ray_end - ray);
     const int slot = flight.batch().size;
     AppendSphereRays(emitters_.Position(visit.emitter), numbers, ray, until, flight.batch());
     flight.SetFlux(slot, RayDeal(visit.quanta, visit.ray_count), ray, until);
+    flight.LandIfFull();
     ray = until;
   }
 }
 
-void Launcher::ShootDivided(const Visit& visit, const RayNumbers& numbers, Flight& flight) const {
-  const std::shared_ptr<const Directions> directions =
-      visit.seen.empty() ? directions_->Get(visit.emitter)
-                         : std::make_shared<const Directions>(
-                               directions_->FromWorth({visit.seen.begin(), visit.seen.end()}));
-  const double offset = RandomNumbers(numbers.stream(), 0, RandomPurpose::kPyramidOffset)[0];
-  ShootStage(visit, {0, visit.ray_count, visit.quanta}, *directions,
-             CellRays(directions->densities, visit.ray_count, offset), numbers, flight);
+void Launcher::ShootDivided(const Visit& visit, uint32_t offset, Volley& volley) const {
+  const Stage all{0, visit.ray_count, visit.quanta};
+  if (visit.seen.empty()) {
+    ShootStage(visit, all, *directions_->Get(visit.emitter), offset, volley);
+  } else {
+    ShootStage(visit, all, directions_->FromWorth({visit.seen.begin(), visit.seen.end()}), offset,
+               volley);
+  }
 }
 
 // The first rays go by the cosine law and tell what is there; the others follow what they saw. Each
 // kind carries the flux of its share of the rays, so both are unbiased whatever was seen.
-void Launcher::ShootProbing(const Visit& visit, const RayNumbers& numbers, Flight& flight) const {
-  const CellSampler& sampler = directions_->sampler();
-  const auto offsets = RandomNumbers(numbers.stream(), 0, RandomPurpose::kPyramidOffset);
-  const uint32_t probes =
-      std::min<uint32_t>(visit.ray_count / 2,
-                         static_cast<uint32_t>(options_.pyramids.probes * sampler.cells().size()));
-  Stage first{0, probes, {}}, second{probes, visit.ray_count - probes, {}};
+Launcher::Stage Launcher::ProbingStage(const Visit& visit) const {
+  const int cells = directions_->sampler().cells().size();
+  Stage stage;
+  stage.count =
+      std::min(visit.ray_count / 2, static_cast<uint32_t>(options_.pyramids.probes * cells));
   for (int c = 0; c < 3; ++c) {
     const Deal deal(visit.quanta[c], visit.ray_count);
-    first.quanta[c] = deal.quotient * probes + std::min<int64_t>(deal.remainder, probes);
-    second.quanta[c] = visit.quanta[c] - first.quanta[c];
+    stage.quanta[c] = deal.quotient * stage.count + std::min<int64_t>(deal.remainder, stage.count);
   }
-  // Uniform densities are those of f_p: all cells that are worth nothing.
-  const Directions by_flux = directions_->FromWorth(std::vector<double>(sampler.cells().size()));
-  const std::vector<uint32_t> probing = CellRays(by_flux.densities, probes, offsets[0]);
+  stage.probing = true;
+  return stage;
+}
+
+// Returns what the probing rays of all divided visits hit, visit by visit.
+std::vector<CellHit> Launcher::ShootProbes(const WorkUnit& unit, Offsets& offsets, Volley& volley,
+                                           Flight& flight) const {
+  std::vector<CellHit> hits;
+  flight.RecordHits(&hits);
+  for (size_t k = 0; k < unit.visits.size(); ++k) {
+    const Visit& visit = unit.visits[k];
+    if (!IsPossible(visit) || !IsDivided(visit)) continue;
+    ShootStage(visit, ProbingStage(visit), directions_->by_flux(), offsets.Of(k, 0), volley);
+  }
+  volley.Finish();
+  flight.Land();
+  flight.RecordHits(nullptr);
+  return hits;
+}
+
+void Launcher::ShootFollowing(const Visit& visit, absl::Span<const CellHit> seen, uint32_t offset,
+                              Volley& volley) const {
+  const Stage probing = ProbingStage(visit);
+  Stage stage{probing.count, visit.ray_count - probing.count, visit.quanta};
+  for (int c = 0; c < 3; ++c) stage.quanta[c] -= probing.quanta[c];
+  if (seen.empty()) {
+    ShootStage(visit, stage, directions_->by_flux(), offset, volley);
+    return;
+  }
   const std::vector<double> worth =
-      ProbeWorth(sampler, scene_, emitters_.Frame(visit.emitter), numbers, probing,
-                 {options_.pyramids.rule, &directions_->hit_worth()});
-  ShootStage(visit, first, by_flux, probing, numbers, flight);
-  const Directions seen = directions_->FromWorth(worth);
-  ShootStage(visit, second, seen, CellRays(seen.densities, second.count, offsets[1]), numbers,
-             flight);
+      WorthOfHits(seen, directions_->sampler().fractions(),
+                  {options_.pyramids.rule, &directions_->hit_worth()});
+  ShootStage(visit, stage, directions_->FromWorth(worth), offset, volley);
 }
 
 void Launcher::ShootStage(const Visit& visit, const Stage& stage, const Directions& directions,
-                          const std::vector<uint32_t>& rays_of_cell, const RayNumbers& numbers,
-                          Flight& flight) const {
+                          uint32_t offset, Volley& volley) const {
+  const uint32_t first = stage.probing ? 0 : visit.ray_begin;
+  const uint32_t last = stage.probing ? visit.ray_count : visit.ray_end;
+  const uint32_t until = std::min(last, stage.first + stage.count);
   const CellSampler& sampler = directions_->sampler();
-  const EmitterFrame frame = emitters_.Frame(visit.emitter);
-  double sum = 0;
-  for (float density : directions.densities) sum += density;
-  uint32_t cell_begin = stage.first;  // first ray of the cell, within the visit
-  // Slots of the batch that are filled with flux and cells but not yet with rays.
-  uint32_t pending_from = std::max(stage.first, visit.ray_begin), pending = 0;
-  int first_slot = flight.batch().size;
-  const auto append = [&] {
-    sampler.Append(frame, directions, flight.cell() + first_slot, numbers, pending_from,
-                   pending_from + pending, flight.batch(), flight.weight());
-    if (sampler.weighted()) flight.ApplyWeights(first_slot, first_slot + static_cast<int>(pending));
-    pending_from += pending;
-    pending = 0;
-  };
-  for (size_t p = 0; p < rays_of_cell.size(); ++p) {
-    const uint32_t cell_end = cell_begin + rays_of_cell[p];
-    const uint32_t from = std::max(cell_begin, visit.ray_begin);
-    const uint32_t until = std::min(cell_end, visit.ray_end);
-    if (from < until) {
-      // A cell that expects less than one ray gets one with that probability, which then carries
-      // the flux of all the times it gets none:  phi_ray = Phi_i f_p / r_ip.
-      const double expected = directions.densities[p] / sum * stage.count;
-      const double share = expected < 1 ? expected : rays_of_cell[p];
-      const int64_t rays = std::max<int64_t>(1, RoundedQuanta(share));
-      const double fraction = sampler.Fraction(directions, static_cast<int>(p));
-      const auto deal = [&](int c) {
-        return Deal(RoundedQuanta(static_cast<double>(stage.quanta[c]) * fraction *
-                                  static_cast<double>(rays) / share),
-                    rays);
-      };
-      const RayDeal deals(deal(0), deal(1), deal(2));
-      for (uint32_t ray = from; ray < until; ++ray) {
-        if (flight.batch().size + static_cast<int>(pending) == RayBatch::kCapacity) {
-          append();
-          flight.Land();
-        }
-        if (pending == 0) first_slot = flight.batch().size;
-        const int slot = first_slot + static_cast<int>(pending);
-        flight.cell()[slot] = static_cast<int32_t>(p);
-        flight.Watch(slot, visit.emitter);
-        ++pending;
-        flight.SetFlux(slot, deals, ray - cell_begin);
-      }
-    }
-    cell_begin = cell_end;
+  const Double4 quanta = {static_cast<double>(stage.quanta[0]),
+                          static_cast<double>(stage.quanta[1]),
+                          static_cast<double>(stage.quanta[2]), 0};
+  VisitCells cells(directions.spans, stage.count, offset);
+  for (uint32_t ray = std::max(first, stage.first); ray < until;) {
+    const CellRays& rays = cells.Of(ray - stage.first);
+    const SphericalTriangle* pyramid = sampler.Pyramid(directions, rays.cell);
+    // phi_ray = Phi_i f_p / r_ip
+    const double part = sampler.Fraction(directions, rays.cell) / rays.share;
+    MeanDeal deal(quanta * part, ray - stage.first - rays.begin);
+    const uint32_t cell_until = std::min(until, stage.first + rays.end);
+    do {
+      const bool carries = ray >= visit.ray_begin && ray < visit.ray_end;
+      const Long4 flux = deal.Next();
+      volley.ShootThrough(rays.cell, pyramid, visit.emitter, ray, carries ? flux : Long4{});
+    } while (++ray < cell_until);
   }
-  if (pending > 0) append();
 }
 
 }  // namespace lambert

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "absl/types/span.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/shoot/directions.h"
 #include "radiosity/shoot/emitter.h"
 #include "radiosity/shoot/flight.h"
 #include "radiosity/shoot/options.h"
 #include "radiosity/shoot/unit.h"
+#include "radiosity/shoot/volley.h"
 #include "radiosity/trace/ray_scene.h"
 
 namespace lambert {
@@ -33,12 +35,13 @@ class Launcher {
   // The rays of a visit that have directions in common: rays [first, first + count).
   struct Stage {
     uint32_t first = 0, count = 0;
-    Quanta quanta{};  // that they share
+    Quanta quanta{};       // that they share
+    bool probing = false;  // all are shot; those that are not of the visit's range only look
   };
 
   Launcher(const PatchSet& patches, const ShootOptions& options, const RayScene& scene)
       : options_(options), scene_(scene), emitters_(patches, scene) {}
-  class CosineRays;
+  class Offsets;
   bool IsPossible(const Visit& visit) const {
     const bool seen_fits =
         visit.seen.empty() ||
@@ -47,12 +50,19 @@ class Launcher {
            visit.ray_begin <= visit.ray_end && visit.ray_end <= visit.ray_count &&
            (visit.quanta[0] | visit.quanta[1] | visit.quanta[2]) >= 0;
   }
-  void ShootSphere(const Visit& visit, const RayNumbers& numbers, Flight& flight) const;
-  void ShootDivided(const Visit& visit, const RayNumbers& numbers, Flight& flight) const;
-  void ShootProbing(const Visit& visit, const RayNumbers& numbers, Flight& flight) const;
+  bool IsDivided(const Visit& visit) const {
+    return directions_ != nullptr && !emitters_.IsPointLight(visit.emitter) &&
+           visit.ray_count >= directions_->min_rays();
+  }
+  Stage ProbingStage(const Visit& visit) const;
+  void ShootSphere(const Visit& visit, RandomStream stream, Flight& flight) const;
+  std::vector<CellHit> ShootProbes(const WorkUnit& unit, Offsets& offsets, Volley& volley,
+                                   Flight& flight) const;
+  void ShootFollowing(const Visit& visit, absl::Span<const CellHit> seen, uint32_t offset,
+                      Volley& volley) const;
+  void ShootDivided(const Visit& visit, uint32_t offset, Volley& volley) const;
   void ShootStage(const Visit& visit, const Stage& stage, const Directions& directions,
-                  const std::vector<uint32_t>& rays_of_cell, const RayNumbers& numbers,
-                  Flight& flight) const;
+                  uint32_t offset, Volley& volley) const;
 
   const ShootOptions options_;
   const RayScene& scene_;

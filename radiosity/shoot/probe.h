@@ -4,7 +4,9 @@
 
 #include <vector>
 
+#include "absl/types/span.h"
 #include "radiosity/shoot/cell_sampler.h"
+#include "radiosity/shoot/flight.h"
 #include "radiosity/trace/ray_scene.h"
 
 namespace lambert {
@@ -14,12 +16,17 @@ struct ProbeOptions {
   const std::vector<double>* hit_worth = nullptr;  // of each patch, for the rule of least variance
 };
 
-// Shoots rays_of_cell[p] rays from a patch through each cell p of `sampler` and returns the worth
-// of each cell: the patches that were hit, each once (rule count), or f_p sqrt(S_p) with S_p the
-// mean worth of its rays (rule variance); 0 where nothing was shot.
+// The worth of each cell by what rays from one patch through it hit: the patches that were hit,
+// each once (rule count), or f_p sqrt(S_p) with S_p the mean worth of its rays (rule variance); 0
+// where nothing was shot. `fractions`: f_p of each cell. Requires: hits in the order of their
+// cells.
+std::vector<double> WorthOfHits(absl::Span<const CellHit> hits,
+                                const std::vector<double>& fractions, const ProbeOptions& options);
+
+// The same of `rays` rays that are shot from a patch through each cell of `sampler`, and carry
+// nothing.
 std::vector<double> ProbeWorth(const CellSampler& sampler, const RayScene& scene,
-                               const EmitterFrame& frame, const RayNumbers& numbers,
-                               const std::vector<uint32_t>& rays_of_cell,
-                               const ProbeOptions& options);
+                               const Emitters& emitters, PatchIndex patch,
+                               const RandomStream& stream, int rays, const ProbeOptions& options);
 
 }  // namespace lambert

@@ -8,7 +8,7 @@ find . \( -path './build*' -o -path ./tests/layering/bad_sample -o -path './.*' 
   FNR == 1 { space = "" }
   /^namespace [a-z_:]+ \{/ { space = $2 }
   /^(struct|class|enum class) [A-Za-z]+/ && !/^[a-z ]+[A-Za-z]+;/ {
-    sub(/^enum /, ""); name = space "::" $2
+    sub(/^enum /, ""); sub(/alignas\([0-9]+\) /, ""); name = space "::" $2
     if (name in first && first[name] != FILENAME) { print name ": " first[name] ", " FILENAME; bad = 1 }
     first[name] = FILENAME
   }

@@ -90,21 +90,52 @@ TEST(SplitWhereWorthIs, SplitsTheWorthiestUntilThereAreEnough) {
   EXPECT_EQ(SplitWhereWorthIs(hemisphere, worth, 1000).pyramids.size(), 64u);
 }
 
-TEST(CellRays, SumToExactlyTheRaysAndDifferFromTheirExpectationByLessThanOne) {
+// Rays of each cell, told by the cells of rays `first`, `first` + `step`, ...
+std::vector<uint32_t> RaysOfCells(const CellSpans& spans, uint32_t ray_count, uint32_t offset,
+                                  uint32_t step) {
+  std::vector<uint32_t> rays(spans.size());
+  VisitCells cells(spans, ray_count, offset);
+  for (uint64_t ray = 0; ray < ray_count; ray += step) {
+    const CellRays& at = cells.Of(static_cast<uint32_t>(ray));
+    EXPECT_LE(at.begin, ray);
+    EXPECT_GT(at.end, ray);
+    const double expected = spans.density(at.cell) * ray_count;
+    EXPECT_NEAR(at.share, std::min(expected, 1.0) * (at.end - at.begin), 1e-9 * at.share);
+    rays[at.cell] = at.end - at.begin;
+  }
+  return rays;
+}
+
+TEST(CellSpans, AreTheDensitiesAndNeverEmpty) {
+  const std::vector<float> densities = {0.25f, 1e-20f, 0.5f, 0.125f, 0.125f};
+  const CellSpans spans(densities);
+  ASSERT_EQ(spans.size(), 5);
+  double sum = 0;
+  for (int p = 0; p < 5; ++p) {
+    EXPECT_NEAR(spans.density(p), densities[p], 5 * 0x1p-32) << p;
+    EXPECT_GT(spans.density(p), 0) << p;
+    sum += spans.density(p);
+  }
+  EXPECT_EQ(sum, 1);
+  EXPECT_EQ(CellSpans().size(), 0);
+}
+
+TEST(VisitCells, RaysSumToExactlyTheRaysAndDifferFromTheirExpectationByLessThanOne) {
   TestRandom random(2);
   const Hemisphere hemisphere(4, 4, 2);
   for (int k = 0; k < 2000; ++k) {
-    const std::vector<float> densities =
-        CellDensities(Fractions(hemisphere), RandomCounts(hemisphere.size(), random), 1, 1);
+    const CellSpans spans(
+        CellDensities(Fractions(hemisphere), RandomCounts(hemisphere.size(), random), 1, 1));
+    const bool many = k % 5 == 0;
     const uint32_t wanted =
-        k % 5 == 0 ? ~0u - static_cast<uint32_t>(k) : static_cast<uint32_t>(random.Below(300));
-    const double offset = k % 7 == 0 ? 1 - 0x1p-24 : random.Uniform();
-    const std::vector<uint32_t> rays = CellRays(densities, wanted, offset);
-    const double sum = Sum(densities);
+        many ? ~0u - static_cast<uint32_t>(k) : 1 + static_cast<uint32_t>(random.Below(300));
+    const uint32_t offset = k % 7 == 0 ? ~0u : static_cast<uint32_t>(random.Bits());
+    const std::vector<uint32_t> rays =
+        RaysOfCells(spans, wanted, offset, many ? wanted / 100000 : 1);
     uint64_t total = 0;
-    for (size_t p = 0; p < rays.size(); ++p) {
+    for (int p = 0; p < spans.size(); ++p) {
       total += rays[p];
-      ASSERT_LT(std::abs(rays[p] - densities[p] / sum * wanted), 1 + 1e-6) << k << " " << p;
+      ASSERT_LT(std::abs(rays[p] - spans.density(p) * wanted), 1) << k << " " << p;
     }
     ASSERT_EQ(total, wanted);
   }
@@ -112,27 +143,34 @@ TEST(CellRays, SumToExactlyTheRaysAndDifferFromTheirExpectationByLessThanOne) {
 
 // A count is floor(x + offset) - floor(y + offset). Over a grid of offsets each floor has the mean
 // of its argument up to half a grid step, and the two errors stay under one step together.
-TEST(CellRays, HaveTheMeanOfTheirDensities) {
-  constexpr int kGrid = 4096;
+TEST(VisitCells, RaysHaveTheMeanOfTheirDensities) {
+  constexpr uint32_t kGrid = 4096;
   TestRandom random(3);
   const Hemisphere hemisphere(4, 4, 1);
   for (uint32_t wanted : {1u, 3u, 40u, 1000u}) {
-    const std::vector<float> densities =
-        CellDensities(Fractions(hemisphere), RandomCounts(hemisphere.size(), random), 1, 2);
-    std::vector<double> mean(densities.size());
-    for (int k = 0; k < kGrid; ++k) {
-      const std::vector<uint32_t> rays = CellRays(densities, wanted, (k + 0.5) / kGrid);
+    const CellSpans spans(
+        CellDensities(Fractions(hemisphere), RandomCounts(hemisphere.size(), random), 1, 2));
+    std::vector<double> mean(spans.size());
+    for (uint32_t k = 0; k < kGrid; ++k) {
+      const std::vector<uint32_t> rays = RaysOfCells(spans, wanted, k * (1u << 20) + (1u << 19), 1);
       for (size_t p = 0; p < rays.size(); ++p) mean[p] += 1.0 * rays[p] / kGrid;
     }
-    for (size_t p = 0; p < mean.size(); ++p) {
-      EXPECT_NEAR(mean[p], densities[p] / Sum(densities) * wanted, 1.0 / kGrid)
-          << wanted << " " << p;
+    for (int p = 0; p < spans.size(); ++p) {
+      EXPECT_NEAR(mean[p], spans.density(p) * wanted, 1.0 / kGrid) << wanted << " " << p;
     }
   }
 }
 
-TEST(CellRays, OfNoRaysAreNone) {
-  EXPECT_EQ(CellRays({0.5f, 0.5f}, 0, 0.999), (std::vector<uint32_t>{0, 0}));
+TEST(VisitCells, AreTheSameFromAnyRayOn) {
+  TestRandom random(4);
+  const CellSpans spans(
+      CellDensities(std::vector<double>(100, 0.01), RandomCounts(100, random), 1, 1));
+  for (uint32_t wanted : {20u, 70u, 99u, 100u, 500u}) {
+    VisitCells all(spans, wanted, 12345);
+    for (uint32_t ray = 0; ray < wanted; ++ray) {
+      ASSERT_EQ(VisitCells(spans, wanted, 12345).Of(ray).cell, all.Of(ray).cell) << ray;
+    }
+  }
 }
 
 }  // namespace

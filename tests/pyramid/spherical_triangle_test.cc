@@ -66,21 +66,26 @@ TEST(SphericalTriangle, FluxFractionEqualsAQuadrature) {
   EXPECT_NEAR(Triangles()[0].triangle.flux_fraction(), 0.25, 1e-15);
 }
 
-TEST(SphericalTriangle, MaxCosineBoundsEveryDirectionAndIsAttained) {
-  TestRandom random(1);
-  for (const auto& [name, t] : Triangles()) {
-    double highest = 0;
-    for (int k = 0; k < 20000; ++k) {
-      // Weights that often vanish reach the edges, where most maxima are.
-      const double u = std::max(0.0, random.Uniform(-0.5, 1)), v = random.Uniform();
-      const Vec3 d = Normalized(t.a() * (1 - u) + (t.b() * v + t.c() * (1 - v)) * u);
-      const Vec3 e = Normalized(t.c() * (1 - u) + (t.a() * v + t.b() * (1 - v)) * u);
-      const Vec3 edge = Normalized(t.a() * v + t.b() * (1 - v));
-      highest = std::max({highest, d.z, e.z, edge.z});
+TEST(SphericalTriangle, PicksPiecesByTheirFlux) {
+  const SphericalTriangle one = Triangles()[0].triangle;
+  float xi = 0.375f;
+  EXPECT_EQ(one.PickPiece(xi).until, 1);
+  EXPECT_EQ(xi, 0.375f);
+  // A crescent along the horizon is cut.
+  const SphericalTriangle crescent(FromAngles(1.5, 1), FromAngles(kPi / 2, 0),
+                                   FromAngles(kPi / 2, 2));
+  const std::vector<DiskPiece> pieces = CutOnDisk(crescent.a(), crescent.b(), crescent.c());
+  ASSERT_GT(pieces.size(), 3u);
+  float before = 0;
+  for (const DiskPiece& piece : pieces) {
+    for (float at : {0.25f, 0.75f}) {
+      xi = before + at * (piece.until - before);
+      EXPECT_EQ(crescent.PickPiece(xi).until, piece.until);
+      EXPECT_NEAR(xi, at, 2e-7 / (piece.until - before));
     }
-    EXPECT_LE(highest, t.max_cosine() + 1e-15) << name;
-    EXPECT_GE(highest, t.max_cosine() - 1e-4) << name;
+    before = piece.until;
   }
+  EXPECT_EQ(before, 1);
 }
 
 TEST(SphericalTriangle, SamplesAreUnitVectorsInside) {

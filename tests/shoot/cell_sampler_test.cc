@@ -13,7 +13,9 @@ namespace {
 TEST(CellSampler, SendsEveryRayThroughItsCellAndWeighsItsFlux) {
   const PatchSet patches = PatchesOf(MakeCornell(1));
   const auto scene = *RayScene::Create(patches);
-  const EmitterFrame frame = Emitters(patches, *scene).Frame(0);
+  const Emitters emitters(patches, *scene);
+  const EmitterFrame& frame = emitters.Frame(0);
+  const RandomStream stream{3, 0, 0, 0};
   for (int kind = 0; kind < 3; ++kind) {
     PyramidOptions options;
     options.depth = 1;
@@ -30,17 +32,27 @@ TEST(CellSampler, SendsEveryRayThroughItsCellAndWeighsItsFlux) {
     float weight[RayBatch::kSlots];
     for (int p = 0; p < 16; ++p) {
       batch->size = 0;
-      const std::vector<int32_t> cells(1000, p);
-      sampler.Append(frame, {}, cells.data(), RandomStream{3, 0, 0, 0}, 0, 1000, *batch, weight);
+      for (uint32_t ray = 0; ray < 1000; ray += 8) {
+        CellRays8 rays;
+        for (uint32_t lane = 0; lane < 8; ++lane) {
+          rays.names.emitter[lane] = 0;
+          rays.names.ray[lane] = ray + lane;
+          rays.cells[lane] = p;
+          rays.pyramids[lane] = sampler.Pyramid({}, p);
+        }
+        EXPECT_EQ(rays.pyramids[0] == nullptr, kind == 2);
+        RandomNumbers8 numbers;
+        FillRandomNumbers(stream, rays.names, numbers);
+        sampler.Append(emitters.Frames(rays.names.emitter), rays, numbers, stream, 8, *batch,
+                       weight);
+      }
       ASSERT_EQ(batch->size, 1000);
       double mean = 0;
       int outside = 0;
       for (int k = 0; k < 1000; ++k) {
         const Vec3 d{batch->direction_x[k], batch->direction_y[k], batch->direction_z[k]};
-        const auto along = [&](const float axis[3]) {
-          return d.x * axis[0] + d.y * axis[1] + d.z * axis[2];
-        };
-        outside += sampler.cells().Locate({along(frame.x), along(frame.y), along(frame.z)}) != p;
+        const Vec3 x{frame.x[0], frame.x[1], frame.x[2]}, z{frame.z[0], frame.z[1], frame.z[2]};
+        outside += sampler.cells().Locate({Dot(d, x), Dot(d, Cross(z, x)), Dot(d, z)}) != p;
         mean += sampler.weighted() ? weight[k] / 1000.0 : 1e-3;
       }
       EXPECT_LE(outside, 1) << kind << " " << p;  // float32 at a border

@@ -32,14 +32,20 @@ ShootOptions With(Method method) {
   return options;
 }
 
-std::vector<float> CountedDirectly(const PatchSet& patches, const PyramidOptions& options,
-                                   PatchIndex i) {
+std::vector<double> Densities(const CellSpans& spans) {
+  std::vector<double> densities;
+  for (int p = 0; p < spans.size(); ++p) densities.push_back(spans.density(p));
+  return densities;
+}
+
+std::vector<double> CountedDirectly(const PatchSet& patches, const PyramidOptions& options,
+                                    PatchIndex i) {
   const CellSampler sampler(options);
   const ClusterTree tree(patches, options.count_black);
   const std::vector<int32_t> counts =
       tree.CountPatches(PatchFrame(patches, i), sampler.cells(), options.use_clusters);
-  return CellDensities(sampler.fractions(), {counts.begin(), counts.end()}, options.alpha1,
-                       options.alpha2);
+  return Densities(CellSpans(CellDensities(sampler.fractions(), {counts.begin(), counts.end()},
+                                           options.alpha1, options.alpha2)));
 }
 
 TEST(DirectionTable, HoldsTheDensitiesOfEveryPatchAtTheFirstAndTheSecondCall) {
@@ -50,9 +56,9 @@ TEST(DirectionTable, HoldsTheDensitiesOfEveryPatchAtTheFirstAndTheSecondCall) {
     const Made made(MakeCornell(2), options);
     EXPECT_EQ(made.table.sampler().cells().size(), 64);
     for (PatchIndex i = 0; i < made.patches.size(); i += 7) {
-      const std::vector<float> expected = CountedDirectly(made.patches, options.pyramids, i);
-      EXPECT_EQ(made.table.Get(i)->densities, expected);
-      EXPECT_EQ(made.table.Get(i)->densities, expected);
+      const std::vector<double> expected = CountedDirectly(made.patches, options.pyramids, i);
+      EXPECT_EQ(Densities(made.table.Get(i)->spans), expected);
+      EXPECT_EQ(Densities(made.table.Get(i)->spans), expected);
     }
   }
 }
@@ -62,7 +68,7 @@ TEST(DirectionTable, DoesNotDependOnClusters) {
   without.pyramids.use_clusters = false;
   const Made a(MakeOffice(1), With(Method::kPhs)), b(MakeOffice(1), without);
   for (PatchIndex i = 0; i < a.patches.size(); i += 11) {
-    EXPECT_EQ(a.table.Get(i)->densities, b.table.Get(i)->densities);
+    EXPECT_EQ(Densities(a.table.Get(i)->spans), Densities(b.table.Get(i)->spans));
   }
 }
 
@@ -73,7 +79,7 @@ TEST(DirectionTable, GivesManyThreadsAtOnceTheSameDensities) {
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([&, t] {
       for (PatchIndex i = 0; i < shared.patches.size(); ++i) {
-        wrong[t] += shared.table.Get(i)->densities != alone.table.Get(i)->densities;
+        wrong[t] += Densities(shared.table.Get(i)->spans) != Densities(alone.table.Get(i)->spans);
       }
     });
   }
@@ -92,18 +98,28 @@ TEST(DirectionTable, DividesAllRaysByEveryMethodAndRule) {
       for (PatchIndex i = 0; i < made.patches.size(); i += 41) {
         const auto directions = made.table.Get(i);
         double sum = 0, fractions = 0;
-        for (size_t p = 0; p < directions->densities.size(); ++p) {
-          EXPECT_GT(directions->densities[p], 0);
-          sum += directions->densities[p];
-          fractions += made.table.sampler().Fraction(*directions, static_cast<int>(p));
+        for (int p = 0; p < directions->spans.size(); ++p) {
+          EXPECT_GT(directions->spans.density(p), 0);
+          sum += directions->spans.density(p);
+          fractions += made.table.sampler().Fraction(*directions, p);
+          EXPECT_EQ(made.table.sampler().Pyramid(*directions, p)->flux_fraction(),
+                    made.table.sampler().Fraction(*directions, p));
         }
-        EXPECT_NEAR(sum, 1, 1e-6);
+        EXPECT_EQ(sum, 1);
         EXPECT_NEAR(fractions, 1, 1e-12);
         if (method == Method::kPhsAdaptive) {
-          EXPECT_EQ(directions->densities.size(), 19u);
+          EXPECT_EQ(directions->spans.size(), 19);
         }
       }
     }
+  }
+}
+
+TEST(DirectionTable, KnowsTheDensitiesOfTheFlux) {
+  const Made made(MakeCornell(1), With(Method::kHs97));
+  const CellSpans& spans = made.table.by_flux().spans;
+  for (int p = 0; p < 64; ++p) {
+    EXPECT_NEAR(spans.density(p), made.table.sampler().fractions()[p], 1e-7) << p;
   }
 }
 

@@ -2,49 +2,56 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
 
 #include "tests/support/scenes.h"
 
 namespace lambert {
 namespace {
 
-TEST(ProbeWorth, CountsEachPatchOnceOrWeighsWhatIsHit) {
+TEST(WorthOfHits, CountsEachPatchOnceOrWeighsWhatIsHit) {
+  const std::vector<CellHit> hits = {{1, 7}, {1, 9}, {1, 7}, {1, kEscaped}, {3, 9}, {4, kEscaped}};
+  const std::vector<double> fractions = {0.1, 0.2, 0.3, 0.25, 0.15};
+  EXPECT_EQ(WorthOfHits(hits, fractions, {}), (std::vector<double>{0, 2, 0, 1, 0}));
+  std::vector<double> worth_of_hit(10);
+  worth_of_hit[7] = 6;
+  worth_of_hit[9] = 4;
+  const std::vector<double> weighed =
+      WorthOfHits(hits, fractions, {DensityRule::kVariance, &worth_of_hit});
+  EXPECT_EQ(weighed, (std::vector<double>{0, 0.2 * std::sqrt(16.0 / 4), 0, 0.25 * 2, 0}));
+}
+
+TEST(ProbeWorth, IsThatOfRaysThroughEachCell) {
   const PatchSet patches = PatchesOf(MakeCornell(3));
   const auto scene = *RayScene::Create(patches);
   const Emitters emitters(patches, *scene);
   const CellSampler sampler(PyramidOptions{});
-  const std::vector<uint32_t> rays(64, 40);  // more than fit one batch
-  std::vector<double> worth_of_hit(patches.size());
-  for (PatchIndex i = 0; i < patches.size(); ++i) worth_of_hit[i] = 1 + i;
-  std::vector<std::set<PatchIndex>> seen(64);
-  std::vector<double> sums(64);
-  // The same rays, traced here, cell by cell.
+  constexpr int kRays = 40;  // in all more than fit one batch
+  const RandomStream stream{1, 0, 0, 0};
+  // The same rays, made and traced here, group by group.
+  std::vector<CellHit> hits;
   auto batch = std::make_unique<RayBatch>();
-  float weight[RayBatch::kSlots];
-  for (int32_t cell = 0; cell < 64; ++cell) {
-    batch->size = 0;
-    const auto first = static_cast<uint32_t>(40 * cell);
-    sampler.Append(emitters.Frame(5), {}, std::vector<int32_t>(40, cell).data(),
-                   RandomStream{1, 5, 0, 0}, first, first + 40, *batch, weight);
-    scene->Trace(*batch);
-    for (int k = 0; k < 40; ++k) {
-      if (batch->hit[k] < 0) continue;
-      seen[cell].insert(batch->hit[k]);
-      sums[cell] += worth_of_hit[batch->hit[k]];
+  for (uint32_t ray = 0; ray < 64 * kRays; ray += 8) {
+    CellRays8 rays;
+    for (uint32_t lane = 0; lane < 8; ++lane) {
+      rays.names.emitter[lane] = 5;
+      rays.names.ray[lane] = ray + lane;
+      rays.cells[lane] = static_cast<int32_t>(ray / kRays);
+      rays.pyramids[lane] = sampler.Pyramid({}, rays.cells[lane]);
     }
+    RandomNumbers8 numbers;
+    FillRandomNumbers(stream, rays.names, numbers);
+    float weight[RayBatch::kSlots];
+    batch->size = 0;
+    sampler.Append(emitters.Frames(rays.names.emitter), rays, numbers, stream, 8, *batch, weight);
+    scene->Trace(*batch);
+    for (int lane = 0; lane < 8; ++lane) hits.push_back({rays.cells[lane], batch->hit[lane]});
   }
-  const std::vector<double> counts =
-      ProbeWorth(sampler, *scene, emitters.Frame(5), RandomStream{1, 5, 0, 0}, rays, {});
-  const std::vector<double> weighed =
-      ProbeWorth(sampler, *scene, emitters.Frame(5), RandomStream{1, 5, 0, 0}, rays,
-                 {DensityRule::kVariance, &worth_of_hit});
-  for (int p = 0; p < 64; ++p) {
-    EXPECT_EQ(counts[p], seen[p].size());
-    EXPECT_NEAR(weighed[p], sampler.fractions()[p] * std::sqrt(sums[p] / 40), 1e-12) << p;
-  }
+  const std::vector<double> counts = ProbeWorth(sampler, *scene, emitters, 5, stream, kRays, {});
+  EXPECT_EQ(counts, WorthOfHits(hits, sampler.fractions(), {}));
+  EXPECT_GT(*std::max_element(counts.begin(), counts.end()), 3);
 }
 
 }  // namespace
