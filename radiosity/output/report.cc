@@ -206,6 +206,22 @@ std::string Warnings(const PatchSet& patches) {
   return html;
 }
 
+std::string Unhit(const RunRecord& record) {
+  constexpr size_t kShown = 40;
+  const std::vector<PatchIndex> unhit = NeverHit(record);
+  if (unhit.empty()) return "";
+  std::string numbers;
+  for (size_t k = 0; k < std::min(kShown, unhit.size()); ++k) {
+    numbers += (k > 0 ? ", " : "") + std::to_string(unhit[k]);
+  }
+  if (unhit.size() > kShown) numbers += ", ...";
+  return "<h2>Patches that no ray has hit</h2><p>" + std::to_string(unhit.size()) + " of " +
+         std::to_string(record.patches->size()) +
+         ": they show their emission only, and their standard error is what one ray more would "
+         "bring.</p><p class=\"soft\">" +
+         numbers + "</p>";
+}
+
 std::string Facts(const RunRecord& record) {
   const SolveOptions& options = record.plan.options;
   std::string html = "<h2>Run</h2><table>";
@@ -244,7 +260,7 @@ std::string EncodeReport(const RunRecord& record, const ReportPictures& pictures
          title + "</h1><p class=\"soft\">Radiosity solution by Lambert</p>" + Tiles(record, units) +
          Pictures(pictures, units) + ErrorChart(record) + ReferenceTable(record) +
          SurfaceTable(record, units) + Balance(record, units) + PlanTable(record.plan) +
-         Warnings(*record.patches) + Facts(record) + "</body></html>\n";
+         Warnings(*record.patches) + Unhit(record) + Facts(record) + "</body></html>\n";
 }
 
 }  // namespace lambert

@@ -63,6 +63,7 @@ Json TotalsJson(const RunRecord& record) {
   for (double patch_area : record.patches->area_m2) area += patch_area;
   return {{"patches", record.patches->size()},
           {"area_m2", area},
+          {"patches_never_hit", NeverHit(record).size()},
           {"passes", progress.pass},
           {"rays", progress.rays},
           {"seconds", progress.seconds},

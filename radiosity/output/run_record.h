@@ -47,4 +47,8 @@ inline UnitNames UnitNamesOf(EmissionUnit unit) {
                                     : UnitNames{"W", "W/m2", "W/m2"};
 }
 
+// The patches that no ray has hit, in order: their standard errors are guesses. Empty for method
+// exact and where nothing emits: there it is known that they get no light.
+std::vector<PatchIndex> NeverHit(const RunRecord& record);
+
 }  // namespace lambert

@@ -23,8 +23,9 @@ void Blend(const Rgb& value, double share, Rgb& mean) { mean = mean + (value - m
 
 }  // namespace
 
-Replicates::Replicates(const PatchSet& patches)
+Replicates::Replicates(const PatchSet& patches, bool hits_are_rays)
     : patches_(patches),
+      hits_are_rays_(hits_are_rays),
       irradiance_lx_(patches.size()),
       spread_(patches.size()),
       gray_spread_(patches.size()),
@@ -54,6 +55,18 @@ void Replicates::Add(const FluxLedger& pass, int64_t rays) {
   ++passes_;
 }
 
+// What a ray brings to the mean solution [lm].
+Rgb Replicates::MeanFluxOfHit() const {
+  CompensatedSum flux[3];
+  int64_t hits = 0;
+  for (PatchIndex i = 0; i < patches_.size(); ++i) {
+    for (int c = 0; c < 3; ++c) flux[c].Add(irradiance_lx_[i][c] * patches_.area_m2[i]);
+    hits += hits_[i];
+  }
+  const Rgb sum{flux[0].value(), flux[1].value(), flux[2].value()};
+  return hits > 0 ? sum / static_cast<double>(hits) : Rgb{};
+}
+
 Solution Replicates::Mean() const {
   Solution solution;
   solution.irradiance_lx = irradiance_lx_;
@@ -62,9 +75,14 @@ Solution Replicates::Mean() const {
   solution.radiosity_lm_per_m2.resize(patches_.size());
   solution.std_error_lm_per_m2.resize(patches_.size());
   const double scale = passes_ > 1 ? 1 / ((passes_ - 1) * weight_) : 0;
+  const Rgb flux_of_hit = hits_are_rays_ && passes_ > 1 ? MeanFluxOfHit() : Rgb{};
   for (PatchIndex i = 0; i < patches_.size(); ++i) {
     solution.radiosity_lm_per_m2[i] =
         patches_.exitance_lm_per_m2[i] + patches_.reflectance[i] * irradiance_lx_[i];
+    if (hits_[i] == 0 && irradiance_lx_[i] == Rgb{}) {
+      solution.std_error_lm_per_m2[i] = patches_.reflectance[i] * flux_of_hit / patches_.area_m2[i];
+      continue;
+    }
     for (int c = 0; c < 3; ++c) {
       solution.std_error_lm_per_m2[i][c] = std::sqrt(spread_[i][c] * scale);
     }

@@ -18,13 +18,15 @@ namespace lambert {
 //   sigma^2 ~ sum N_p (x_p - x)^2 / (P - 1),   Var(x) ~ sigma^2 / sum N_p.
 class Replicates {
  public:
-  explicit Replicates(const PatchSet& patches);
+  // hits_are_rays: so that a patch without hits may yet have light (all methods but exact).
+  explicit Replicates(const PatchSet& patches, bool hits_are_rays = true);
 
   // Requires: rays > 0.
   void Add(const FluxLedger& pass, int64_t rays);
 
   int32_t passes() const { return passes_; }
-  // Mean solution; standard errors are zero until there are two passes.
+  // Mean solution; standard errors are zero until there are two passes. That of a patch that no ray
+  // has hit is what one ray more, of mean flux, would bring: of its true light no more is known.
   Solution Mean() const;
   // CONTRACT's rms_area and rms_patch of the mean, estimated; -1 with fewer than two passes; 0
   // where nothing is reflected.
@@ -37,8 +39,10 @@ class Replicates {
 
  private:
   double EstimatedRms(bool by_area) const;
+  Rgb MeanFluxOfHit() const;
 
   const PatchSet& patches_;
+  const bool hits_are_rays_;
   int32_t passes_ = 0;
   double weight_ = 0;                // sum of N_p
   std::vector<Rgb> irradiance_lx_;   // mean

@@ -57,7 +57,7 @@ struct Solver::State {
       : patches(std::move(set)),
         options(solve_options),
         now(std::move(clock)),
-        replicates(*patches),
+        replicates(*patches, options.shoot.method != Method::kExact),
         started(now()) {
     if (options.shoot.method == Method::kPhsHier) {
       tree = std::make_unique<const SurfaceTree>(*patches);

@@ -63,6 +63,19 @@ TEST(EncodeReport, TellsWarnings) {
   EXPECT_TRUE(Has(ReportOf(record), "nothing in the scene emits light"));
 }
 
+TEST(EncodeReport, ListsPatchesThatNoRayHasHit) {
+  RunRecord record = RecordOf(PatchesOf(MakeCornell()), [](Vec3) { return Rgb{1, 1, 1}; });
+  Solution solution = *record.snapshot.solution;
+  solution.hits.assign(record.patches->size(), 5);
+  record.snapshot.solution = std::make_shared<const Solution>(solution);
+  EXPECT_EQ(EncodeReport(record, {}).find("no ray has hit"), std::string::npos);
+  solution.hits[11] = 0;
+  record.snapshot.solution = std::make_shared<const Solution>(solution);
+  const std::string html = EncodeReport(record, {});
+  EXPECT_NE(html.find("1 of 32: they show"), std::string::npos);
+  EXPECT_NE(html.find("<p class=\"soft\">11</p>"), std::string::npos);
+}
+
 TEST(EncodeReport, NamesFromFilesCannotBecomeMarkup) {
   RunRecord record = SomeRecord();
   record.name = "<script>alert(1)</script>";

@@ -38,6 +38,21 @@ TEST(EncodeRunJson, HoldsOptionsPlanLedgerTotalsAndTimings) {
   EXPECT_FALSE(json.contains("measures"));
 }
 
+TEST(NeverHit, AreThePatchesWithoutHitsWhereThatLeavesTheirLightOpen) {
+  RunRecord record = SomeRecord();
+  Solution solution = *record.snapshot.solution;
+  solution.hits.assign(record.patches->size(), 5);
+  solution.hits[3] = solution.hits[7] = 0;
+  record.snapshot.solution = std::make_shared<const Solution>(solution);
+  EXPECT_EQ(NeverHit(record), (std::vector<PatchIndex>{3, 7}));
+  EXPECT_EQ(Json::parse(EncodeRunJson(record, {}, {}))["totals"]["patches_never_hit"], 2);
+  record.stop_reason = StopReason::kNothingToShoot;
+  EXPECT_TRUE(NeverHit(record).empty());
+  record.stop_reason = StopReason::kErrorReached;
+  record.plan.options.shoot.method = Method::kExact;
+  EXPECT_TRUE(NeverHit(record).empty());
+}
+
 TEST(EncodeRunJson, WhatIsNotKnownIsNull) {
   RunRecord record = SomeRecord();
   record.snapshot.progress.estimated_rms_area = -1;

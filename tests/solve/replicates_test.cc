@@ -137,6 +137,30 @@ TEST(Replicates, KnowNoErrorBeforeTheSecondPass) {
   EXPECT_GT(replicates.EstimatedRmsPatch(), 0);
 }
 
+// Two passes of one ray each, which brings 0.5 lm to the first of two squares: what a ray brings to
+// their mean is half of that, and of the patches that got none no more is known.
+TEST(Replicates, APatchThatNoRayHasHitMayYetHaveTheLightOfOne) {
+  const PatchSet patches = PatchesOf(MakeParallelSquares(0.5, 0.25));
+  StepPlan plan;
+  plan.quantum_lm = {0.25, 0.25, 0.25};
+  UnitResult result;
+  result.deposits = {{2, 2, 2, 1, 0}};
+  result.shot = {2, 2, 2};
+  FluxLedger pass(patches);
+  pass.Book(pass.unsent(), plan, result);
+  for (bool hits_are_rays : {true, false}) {
+    Replicates replicates(patches, hits_are_rays);
+    replicates.Add(pass, 1);
+    replicates.Add(pass, 1);
+    const Solution solution = replicates.Mean();
+    EXPECT_EQ(solution.std_error_lm_per_m2[0], Rgb{}) << "two equal passes";
+    for (PatchIndex i = 1; i < patches.size(); ++i) {
+      const double one_ray = patches.reflectance[i].g * 0.25 / patches.area_m2[i];
+      EXPECT_DOUBLE_EQ(solution.std_error_lm_per_m2[i].g, hits_are_rays ? one_ray : 0);
+    }
+  }
+}
+
 TEST(Replicates, WithoutPassesAreTheEmission) {
   const Solution solution = Replicates(Patches()).Mean();
   EXPECT_EQ(solution.radiosity_lm_per_m2, Patches().exitance_lm_per_m2);
