@@ -133,6 +133,13 @@ void FluxLedger::Book(std::vector<UnsentFlux> sent, const StepPlan& plan, const 
   }
 }
 
+void FluxLedger::TakeBack(const std::vector<UnsentFlux>& residual) {
+  for (const UnsentFlux& flux : residual) {
+    for (int c = 0; c < 3; ++c) residual_[c].Add(-flux.flux_lm[c]);
+  }
+  Add(residual);
+}
+
 void FluxLedger::BookSolution(const StepPlan& plan, const UnitResult& result) {
   const Rgb emitted = unsent_sum_;
   ClearUnsent();

@@ -52,6 +52,9 @@ class FluxLedger {
   // pass, what is added must come to nothing (radiosity/solve/ambient.h).
   void Add(const std::vector<UnsentFlux>& flux);
 
+  // Makes residual flux unsent again, signed and in order of emitters.
+  void TakeBack(const std::vector<UnsentFlux>& residual);
+
   // Books a finished solution: what was unsent was emitted, `result` holds all that arrived over
   // all bounces, and nothing is left unsent.
   void BookSolution(const StepPlan& plan, const UnitResult& result);

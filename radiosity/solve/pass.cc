@@ -129,7 +129,7 @@ absl::Status Pass::ShootPart(StepExecutor& executor, const Ambient::Part& part, 
       Execute(executor, plan, UnitRays(plan.rays, setting_.patches.size()));
   if (!result.ok()) return result.status();
   ledger_.Book(part.unsent, plan, *result, sign);
-  if (ambient_) ledger_.Add(Scaled(ambient_->Learn(part, plan, *result), sign));
+  if (ambient_) ledger_.TakeBack(Scaled(ambient_->Learn(part, plan, *result), sign));
   return absl::OkStatus();
 }
 

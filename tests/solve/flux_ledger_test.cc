@@ -99,6 +99,16 @@ TEST(FluxLedger, TakesBackWhatWasShotTooMuchOf) {
   EXPECT_NEAR(b.absorbed.b + b.escaped.b + b.unsent.b + b.residual.b, b.emitted.b - 4, 1e-12);
 }
 
+TEST(FluxLedger, ResidualFluxThatIsTakenBackIsUnsentAndNoResidual) {
+  const PatchSet patches = PatchesOf(MakeFurnace(0.5));
+  FluxLedger ledger(patches);
+  ledger.TakeBack({{2, {1, 2, 3}}, {4, {-1, 0, 0}}});
+  const Ledger b = ledger.Balance();
+  EXPECT_DOUBLE_EQ(b.residual.b, -3);
+  EXPECT_DOUBLE_EQ(b.residual.r, 0);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(b.unsent[c] + b.residual[c], b.emitted[c], 1e-14);
+}
+
 TEST(Scaled, ScalesEveryChannel) {
   EXPECT_EQ(Scaled({{1, {1, -2, 3}}}, -2), (std::vector<UnsentFlux>{{1, {-2, 4, -6}}}));
 }
