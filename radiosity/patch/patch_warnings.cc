@@ -1,5 +1,8 @@
 #include "radiosity/patch/patch_warnings.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "absl/strings/str_cat.h"
 
 namespace lambert {
@@ -9,6 +12,10 @@ constexpr double kHighReflectance = 0.95;  // white paint reflects .85, fresh sn
 
 // Area vectors of a closed surface sum to zero, up to the float32 digits of the file.
 constexpr double kClosedTolerance = 1e-5;
+
+// A point light this near to a patch lies on it; as a share of the scene's diagonal: the tracer's
+// offsets are about as large.
+constexpr double kOnSurface = 1e-6;
 
 int64_t CountHighReflectance(const PatchSet& patches) {
   int64_t count = 0;
@@ -35,6 +42,72 @@ bool IsClosedAndFacesOutward(const PatchSet& patches) {
          volume_m3 > kClosedTolerance * area_m2 * std::sqrt(area_m2);
 }
 
+double DistanceToSegment(Vec3 p, Vec3 a, Vec3 b) {
+  const Vec3 ab = b - a;
+  const double t = std::clamp(Dot(p - a, ab) / Dot(ab, ab), 0.0, 1.0);
+  return Length(p - (a + ab * t));
+}
+
+double DistanceToTriangle(Vec3 p, const std::array<Vec3, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Vec3 normal = Normalized(Cross(b - a, c - a));
+  bool inside = true;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 from = corners[k], to = corners[(k + 1) % 3];
+    inside = inside && Dot(Cross(to - from, p - from), normal) >= 0;
+  }
+  if (inside) return std::fabs(Dot(p - a, normal));
+  return std::min(
+      {DistanceToSegment(p, a, b), DistanceToSegment(p, b, c), DistanceToSegment(p, c, a)});
+}
+
+// Length of the diagonal of the bounding box of all patches.
+double Diagonal(const PatchSet& patches) {
+  Vec3 low = patches.corners[0][0], high = low;
+  for (const auto& corners : patches.corners) {
+    for (const Vec3& p : corners) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  }
+  return Length(high - low);
+}
+
+// Whether each point light lies on a patch. Only lights within a patch's extent in x are measured.
+std::vector<bool> FindLightsOnSurfaces(const PatchSet& patches) {
+  std::vector<bool> on_surface(patches.point_lights.size());
+  std::vector<std::pair<double, size_t>> by_x;  // x, index of the light
+  for (size_t l = 0; l < patches.point_lights.size(); ++l) {
+    by_x.emplace_back(patches.point_lights[l].position.x, l);
+  }
+  if (by_x.empty()) return on_surface;
+  std::sort(by_x.begin(), by_x.end());
+  const double near_m = kOnSurface * Diagonal(patches);
+  for (const auto& corners : patches.corners) {
+    const auto [low, high] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+    for (auto it = std::lower_bound(by_x.begin(), by_x.end(), std::pair(low - near_m, size_t{0}));
+         it != by_x.end() && it->first <= high + near_m; ++it) {
+      const Vec3 position = patches.point_lights[it->second].position;
+      if (DistanceToTriangle(position, corners) <= near_m) on_surface[it->second] = true;
+    }
+  }
+  return on_surface;
+}
+
+void AppendLightsOnSurfaces(PatchSet* patches) {
+  const std::vector<bool> on_surface = FindLightsOnSurfaces(*patches);
+  const auto first = std::find(on_surface.begin(), on_surface.end(), true);
+  if (first == on_surface.end()) return;
+  const size_t light = first - on_surface.begin();
+  patches->warnings.push_back(
+      {"LIGHT_ON_SURFACE",
+       absl::StrCat(std::count(first, on_surface.end(), true),
+                    " point light(s) lie on a patch, the first is light ", light, " \"",
+                    patches->point_lights[light].name,
+                    "\": rounding decides which side it lights, and what it sends to the other "
+                    "side is lost; move it off the surface")});
+}
+
 }  // namespace
 
 void AppendPatchWarnings(PatchSet* patches) {
@@ -48,6 +121,7 @@ void AppendPatchWarnings(PatchSet* patches) {
                                           " patch(es) reflect more than 95 %, more than any "
                                           "paint: light will bounce for long")});
   }
+  AppendLightsOnSurfaces(patches);
   if (IsClosedAndFacesOutward(*patches)) {
     patches->warnings.push_back(
         {"POSSIBLY_INVERTED_NORMALS",

@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "radiosity/core/error.h"
 #include "radiosity/scene/gltf_accessor.h"
+#include "radiosity/scene/vertex_normals.h"
 
 namespace lambert {
 namespace {
@@ -111,16 +112,20 @@ class VertexCopier {
   absl::flat_hash_map<uint32_t, uint32_t> copied_;
 };
 
-absl::Status ReadTriangles(const Attributes& attributes, int mode, const std::string& where,
-                           Primitive* primitive) {
+Vec3 ToVec3(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
+
+absl::Status ReadTriangles(const Attributes& attributes, const VertexNormals& normals, int mode,
+                           const std::string& where, Primitive* primitive) {
   const uint64_t triangles = TriangleCount(mode, attributes.ListedVertices());
   VertexCopier copier(attributes, primitive);
   primitive->triangles.reserve(triangles);
   for (uint64_t t = 0; t < triangles; ++t) {
     std::array<uint32_t, 3> triangle;
-    const std::array<uint64_t, 3> corners = TriangleCorners(mode, t);
+    std::array<uint64_t, 3> vertices = TriangleCorners(mode, t);
+    std::array<Vec3, 3> corners;
     for (int k = 0; k < 3; ++k) {
-      const uint64_t i = attributes.indices ? attributes.indices->Index(corners[k]) : corners[k];
+      if (attributes.indices) vertices[k] = attributes.indices->Index(vertices[k]);
+      const uint64_t i = vertices[k];
       if (i >= attributes.positions->count()) {
         return SceneError(where,
                           absl::StrCat("index ", i, " is not under its vertex count ",
@@ -132,7 +137,9 @@ absl::Status ReadTriangles(const Attributes& attributes, int mode, const std::st
         return SceneError(where, absl::StrCat("position ", i, " is not finite"), kExportAgain);
       }
       triangle[k] = *vertex;
+      corners[k] = ToVec3(primitive->positions[*vertex]);
     }
+    if (normals.IsBad(vertices, corners)) ++primitive->bad_normals;
     primitive->triangles.push_back(triangle);
   }
   return absl::OkStatus();
@@ -175,7 +182,8 @@ absl::StatusOr<Primitive> ReadPrimitive(const tinygltf::Model& model,
   }
   *triangles_left -= static_cast<int64_t>(count);
   CountUnread(gltf, unread);
-  absl::Status status = ReadTriangles(*attributes, gltf.mode, where, &primitive);
+  absl::Status status =
+      ReadTriangles(*attributes, VertexNormals(model, gltf), gltf.mode, where, &primitive);
   if (!status.ok()) return status;
   return primitive;
 }

@@ -74,6 +74,19 @@ std::vector<bool> FindUsedMaterials(const tinygltf::Model& model, const Scene& s
   return used;
 }
 
+void AppendBadNormals(Scene* scene) {
+  int64_t bad = 0;
+  for (const Mesh& mesh : scene->meshes) {
+    for (const Primitive& primitive : mesh.primitives) bad += primitive.bad_normals;
+  }
+  if (bad == 0) return;
+  scene->warnings.push_back(
+      {"BAD_VERTEX_NORMALS",
+       absl::StrCat("the vertex normals of ", bad,
+                    " triangle(s) are not of length 1 or point to the back; sides come from the "
+                    "winding, so nothing was changed")});
+}
+
 absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& limits) {
   absl::Status status = CheckBytes(bundle, limits);
   if (!status.ok()) return status;
@@ -94,6 +107,7 @@ absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& li
   scene.materials = *std::move(materials);
   if (!model->animations.empty()) unread.Add("animations", "file", "shown at rest");
   scene.warnings = unread.Warnings();
+  AppendBadNormals(&scene);
   return scene;
 }
 

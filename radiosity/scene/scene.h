@@ -37,6 +37,7 @@ struct Primitive {
   std::vector<std::array<uint32_t, 3>> triangles;       // counter-clockwise seen from the front
   std::array<std::vector<std::array<float, 2>>, 2> uv;  // TEXCOORD_0 and _1, empty if absent
   int material = -1;                                    // -1: the glTF default material
+  int64_t bad_normals = 0;                              // triangles (VertexNormals); a warning's
 };
 
 struct Mesh {

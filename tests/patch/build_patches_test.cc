@@ -234,6 +234,24 @@ TEST(BuildPatches, LightsAndCamerasMoveWithTheOrigin) {
   EXPECT_NEAR(EmittedFlux(patches).r, 400 * std::numbers::pi, 1e-9);
 }
 
+TEST(BuildPatches, PointLightsOnAPatchAreNamedAndOnesNearByAreNot) {
+  const auto warns = [](Vec3 position) {
+    const Scene scene = SceneMaker()
+                            .Quad({}, {0, 0, 1}, {1, 0, 0}, {{0.5, 0.5, 0.5}, {}})
+                            .Light({0.5, 0.5, 0.5}, {1, 1, 1})
+                            .Light(position, {1, 1, 1})
+                            .Make();
+    return HasWarning(PatchesOf(scene), "LIGHT_ON_SURFACE");
+  };
+  for (Vec3 on : {Vec3{0.25, 0, 0.5}, Vec3{0.25, 1e-6, 0.5}, Vec3{0.25, -1e-6, 0.5}, Vec3{1, 0, 1},
+                  Vec3{1 + 1e-6, 0, 0.5}}) {
+    EXPECT_TRUE(warns(on)) << on.x << " " << on.y;
+  }
+  for (Vec3 off : {Vec3{0.25, 2e-6, 0.5}, Vec3{1 + 2e-6, 0, 0.5}, Vec3{3, 0, 0.5}}) {
+    EXPECT_FALSE(warns(off)) << off.x << " " << off.y;
+  }
+}
+
 TEST(BuildPatches, TextureWithoutCoordinatesIsRefused) {
   Scene scene = MakeFurnace(0.5);
   scene.textures.push_back({1, 1, {188, 188, 188, 255}});

@@ -243,6 +243,33 @@ TEST(LoadGltf, EverythingThatIsNotReadIsNamedOnce) {
   EXPECT_EQ(scene->warnings.size(), 8u);
 }
 
+TEST(LoadGltf, BadVertexNormalsAreCountedAndChangeNothing) {
+  const float nan = std::nanf("");
+  GltfDocument document;
+  const auto load = [&document](const std::vector<float>& normals) {
+    document.Primitive()["attributes"]["NORMAL"] =
+        document.AddAccessor<float>(normals, 5126, "VEC3", normals.size() / 3);
+    return *document.Load();
+  };
+  for (float z : {1.0f, 0.995f, 1.005f}) {
+    EXPECT_TRUE(load({0, 0, z, 0, 0, z, 0, 0, z}).warnings.empty()) << z;
+  }
+  EXPECT_TRUE(load({0, 0, 1, 1, 0, 0, 0, 0.6f, -0.8f}).warnings.empty()) << "leaning";
+  for (const std::vector<float>& bad :
+       std::vector<std::vector<float>>{{0, 0, 1, 0, 0, 1, 0, 0, 1000},
+                                       {0, 0, 0, 0, 0, 1, 0, 0, 1},
+                                       {0, 0, -1, 0, 0, -1, 0, 0, -1},
+                                       {0, 0, 1, nan, 0, 1, 0, 0, 1},
+                                       {0, 0, 1, 0, 0, 1}}) {
+    const Scene scene = load(bad);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.warnings[0].reason, "BAD_VERTEX_NORMALS");
+    EXPECT_NE(scene.warnings[0].message.find("1 triangle(s)"), std::string::npos);
+    EXPECT_EQ(scene.meshes[0].primitives[0].positions,
+              GltfDocument().Load()->meshes[0].primitives[0].positions);
+  }
+}
+
 TEST(LoadGltf, OnlyTheDefaultSceneIsRead) {
   GltfDocument document;
   document.json["nodes"].push_back({{"mesh", 0}});
