@@ -11,6 +11,7 @@
 #include "gtest/gtest.h"
 #include "tests/support/process.h"
 #include "tests/support/scenes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lambert::app {
 
@@ -21,15 +22,7 @@ struct Ran {
 
 class CommandFixture : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("lambert_") + test->test_suite_name() + "_" + test->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-    Write("room.glb", ToGlb(MakeCornell(2)));
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void SetUp() override { Write("room.glb", ToGlb(MakeCornell(2))); }
 
   // Starts `lambert ARGUMENTS...` in the folder.
   std::unique_ptr<Process> Start(std::vector<std::string> arguments) {
@@ -59,7 +52,8 @@ class CommandFixture : public testing::Test {
     }
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder own_;
+  const std::filesystem::path folder_ = own_.path();
   std::map<std::string, std::string> environment_;
 };
 

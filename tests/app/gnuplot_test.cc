@@ -1,27 +1,23 @@
 #include "app/gnuplot.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "gtest/gtest.h"
 #include "radiosity/core/error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lambert::app {
 namespace {
 
 class GnuplotTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = testing::TempDir() + "/gnuplot.XXXXXX";
-    folder_ = mkdtemp(pattern.data());
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   void Write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ + "/" + name) << text;
   }
 
-  std::string folder_;
+  const TemporaryFolder own_;
+  const std::string folder_ = own_.path();
 };
 
 TEST_F(GnuplotTest, QuotesHoldAnyText) {

@@ -6,6 +6,7 @@
 #include "app/exit.h"
 #include "gtest/gtest.h"
 #include "radiosity/core/error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lambert::app {
 namespace {
@@ -14,12 +15,7 @@ namespace fs = std::filesystem;
 
 class SceneFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "parts");
-  }
+  void SetUp() override { fs::create_directories(folder_ / "parts"); }
   std::string Write(const std::string& name, const std::string& bytes) {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
     return (folder_ / name).string();
@@ -28,7 +24,8 @@ class SceneFiles : public testing::Test {
     return Write("room.gltf", R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":3,"uri":")" +
                                   uri + R"("}]})");
   }
-  fs::path folder_;
+  const TemporaryFolder own_;
+  const fs::path folder_ = own_.path();
 };
 
 std::string ReasonOf(const absl::Status& status) {

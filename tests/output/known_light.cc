@@ -1,10 +1,11 @@
 #include "tests/output/known_light.h"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
 #include <fstream>
+#include <memory>
 #include <sstream>
+#include <vector>
+
+#include "tests/support/temporary_folder.h"
 
 namespace lambert {
 
@@ -42,12 +43,8 @@ RunRecord RecordOf(const PatchSet& patches, const std::function<Rgb(Vec3)>& irra
 }
 
 std::string TestFolder() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::string folder =
-      testing::TempDir() + "lambert_output_" + test->test_suite_name() + "_" + test->name();
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
+  static std::vector<std::unique_ptr<TemporaryFolder>> folders;  // removed when the program ends
+  return folders.emplace_back(std::make_unique<TemporaryFolder>())->path();
 }
 
 std::string ReadFile(const std::string& path) {
