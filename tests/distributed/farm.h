@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "tests/service/service_calls.h"
-#include "tests/service/temporary_folder.h"
 #include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lambert {
 

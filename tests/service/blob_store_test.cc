@@ -11,8 +11,8 @@
 #include "server/base/record_store.h"
 #include "server/blobs/blob_refs.h"
 #include "server/blobs/uploads.h"
-#include "tests/service/temporary_folder.h"
 #include "tests/service/work_fakes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lambert::server {
 namespace {

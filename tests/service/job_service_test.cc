@@ -4,7 +4,7 @@
 #include "radiosity/solve/plan.h"
 #include "radiosity/solve/solver.h"
 #include "tests/service/service_fixture.h"
-#include "tests/service/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lambert {
 namespace {

@@ -1,22 +1,22 @@
-// A folder of a test's own.
+// A folder of a test's own, whatever else runs on the machine; it goes with the test.
 #pragma once
 
-#include <stdlib.h>
-
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
-#include <gtest/gtest.h>
-
 namespace lambert {
 
-// New and empty, whatever else runs on the machine; removed with all that is in it.
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_(testing::TempDir() + "lambert.XXXXXX") {
-    if (mkdtemp(path_.data()) == nullptr) abort();
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "lambert-XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
   }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
