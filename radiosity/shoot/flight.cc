@@ -58,7 +58,7 @@ void Flight::LandTraced() {
   }
   result_.rays += shot[3];
   if (watch_) Tell();
-  for (int k = 0; hits_ != nullptr && k < batch_.size; ++k) {
+  for (int k = 0; RecordsHits() && k < batch_.size; ++k) {
     hits_->push_back({cell_[k], batch_.hit[k]});
   }
   if (rests_ != nullptr) Rest();
