@@ -1,8 +1,8 @@
 #include "radiosity/output/smooth.h"
 
 #include <algorithm>
-#include <numeric>
 
+#include "radiosity/core/disjoint_sets.h"
 #include "radiosity/output/weld.h"
 
 namespace lambert {
@@ -17,21 +17,6 @@ struct Side {
   PatchIndex patch;
   int from;      // corner
   bool forward;  // runs from `low` to `high`
-};
-
-class UnionFind {
- public:
-  explicit UnionFind(size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int32_t Find(int32_t item) {
-    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
-    return item;
-  }
-  void Join(int32_t a, int32_t b) { parent_[Find(a)] = Find(b); }
-
- private:
-  std::vector<int32_t> parent_;
 };
 
 std::vector<Side> SortedSides(const WeldedCorners& welded) {
@@ -52,7 +37,7 @@ std::vector<Side> SortedSides(const WeldedCorners& welded) {
 }
 
 // Joins the corners at both ends of two sides, where the patches see each other there.
-void JoinSides(const Surveyor& surveyor, const Side& a, const Side& b, UnionFind& corners) {
+void JoinSides(const Surveyor& surveyor, const Side& a, const Side& b, DisjointSets& corners) {
   if (a.forward == b.forward || !surveyor.NearlyCoplanar(a.patch, b.patch)) return;
   // The end of one side is the beginning of the other.
   const int a_ends[] = {a.from, (a.from + 1) % 3};
@@ -112,7 +97,7 @@ void FillHiddenCorners(const PatchSurvey& survey, std::array<Rgb, 3>& corners) {
 CornerFans FindCornerFans(const PatchSet& patches, const RayScene& scene) {
   const std::vector<Side> sides = SortedSides(WeldCorners(patches));
   const Surveyor surveyor(patches, scene);
-  UnionFind corners(3 * static_cast<size_t>(patches.size()));
+  DisjointSets corners(3 * static_cast<size_t>(patches.size()));
   for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     while (end < sides.size() && sides[end].low == sides[begin].low &&
            sides[end].high == sides[begin].high) {
