@@ -55,16 +55,14 @@ void Replicates::Add(const FluxLedger& pass, int64_t rays) {
   ++passes_;
 }
 
-// What a ray brings to the mean solution [lm].
-Rgb Replicates::MeanFluxOfHit() const {
+// What a ray carries in the mean solution [lm], whether it arrived or not.
+Rgb Replicates::MeanFluxOfRay() const {
   CompensatedSum flux[3];
-  int64_t hits = 0;
   for (PatchIndex i = 0; i < patches_.size(); ++i) {
     for (int c = 0; c < 3; ++c) flux[c].Add(irradiance_lx_[i][c] * patches_.area_m2[i]);
-    hits += hits_[i];
   }
-  const Rgb sum{flux[0].value(), flux[1].value(), flux[2].value()};
-  return hits > 0 ? sum / static_cast<double>(hits) : Rgb{};
+  const Rgb arrived{flux[0].value(), flux[1].value(), flux[2].value()};
+  return (arrived + ledger_.escaped) / weight_;
 }
 
 Solution Replicates::Mean() const {
@@ -75,12 +73,12 @@ Solution Replicates::Mean() const {
   solution.radiosity_lm_per_m2.resize(patches_.size());
   solution.std_error_lm_per_m2.resize(patches_.size());
   const double scale = passes_ > 1 ? 1 / ((passes_ - 1) * weight_) : 0;
-  const Rgb flux_of_hit = hits_are_rays_ && passes_ > 1 ? MeanFluxOfHit() : Rgb{};
+  const Rgb flux_of_ray = hits_are_rays_ && passes_ > 1 ? MeanFluxOfRay() : Rgb{};
   for (PatchIndex i = 0; i < patches_.size(); ++i) {
     solution.radiosity_lm_per_m2[i] =
         patches_.exitance_lm_per_m2[i] + patches_.reflectance[i] * irradiance_lx_[i];
     if (hits_[i] == 0 && irradiance_lx_[i] == Rgb{}) {
-      solution.std_error_lm_per_m2[i] = patches_.reflectance[i] * flux_of_hit / patches_.area_m2[i];
+      solution.std_error_lm_per_m2[i] = patches_.reflectance[i] * flux_of_ray / patches_.area_m2[i];
       continue;
     }
     for (int c = 0; c < 3; ++c) {

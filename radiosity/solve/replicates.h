@@ -39,7 +39,7 @@ class Replicates {
 
  private:
   double EstimatedRms(bool by_area) const;
-  Rgb MeanFluxOfHit() const;
+  Rgb MeanFluxOfRay() const;
 
   const PatchSet& patches_;
   const bool hits_are_rays_;

@@ -161,6 +161,25 @@ TEST(Replicates, APatchThatNoRayHasHitMayYetHaveTheLightOfOne) {
   }
 }
 
+// All that is known where every ray escaped is what a ray carried.
+TEST(Replicates, WhereEveryRayEscapesAPatchMayYetHaveTheLightOfOne) {
+  const PatchSet patches = PatchesOf(MakeParallelSquares(0.5, 0.25));
+  StepPlan plan;
+  plan.quantum_lm = {0.25, 0.25, 0.25};
+  UnitResult result;
+  result.shot = result.escaped = {8, 8, 8};
+  FluxLedger pass(patches);
+  pass.Book(pass.unsent(), plan, result);
+  Replicates replicates(patches);
+  replicates.Add(pass, 4);
+  replicates.Add(pass, 4);
+  const Solution solution = replicates.Mean();
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    EXPECT_DOUBLE_EQ(solution.std_error_lm_per_m2[i].g,
+                     patches.reflectance[i].g * (2.0 / 8) / patches.area_m2[i]);
+  }
+}
+
 TEST(Replicates, WithoutPassesAreTheEmission) {
   const Solution solution = Replicates(Patches()).Mean();
   EXPECT_EQ(solution.radiosity_lm_per_m2, Patches().exitance_lm_per_m2);
