@@ -4,7 +4,6 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-export CCACHE_BASEDIR=$PWD  # clones share what they compiled
 preset=$1
 shift
 werror=OFF
