@@ -4,7 +4,6 @@
 # one. Uses gcov of the compiler's package; a build folder of its own, build/coverage.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-export CCACHE_BASEDIR=$PWD  # clones share what they compiled
 build=$PWD/build/coverage
 
 cmake --preset coverage >/dev/null
