@@ -41,12 +41,13 @@ std::string CheckSetting(const ShootSetting& setting, const std::string& text) {
 }
 
 void AddSetting(CLI::App& command, const ShootSetting& setting, ShootOptions& shoot) {
+  const std::string name = setting.name, values = setting.value_name;
   CLI::Option* option = command.add_option_function<std::string>(
-      std::string("--") + setting.name,
-      [&setting, &shoot](const std::string& text) { setting.set(text, shoot); }, setting.help);
-  option->option_text(setting.value_name)
-      ->group(std::string(setting.name).starts_with("phs-") ? kPyramids : kMethod);
-  if (std::string(setting.value_name) == "N") option->transform(CountFrom(0, kAnyCount));
+      "--" + name, [&setting, &shoot](const std::string& text) { setting.set(text, shoot); },
+      setting.help);
+  option->option_text(values)->group(name.starts_with("phs-") ? kPyramids : kMethod);
+  if (values == "N") option->transform(CountFrom(0, kAnyCount));
+  if (values.ends_with(",...")) option->join(',');
   option->check(Check([&setting](std::string& text) { return CheckSetting(setting, text); }));
 }
 

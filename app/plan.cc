@@ -7,7 +7,7 @@
 #include "app/service.h"
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
-#include "radiosity/shoot/importance.h"
+#include "radiosity/output/run_json.h"
 #include "radiosity/solve/plan.h"
 
 namespace lambert::app {
@@ -64,7 +64,7 @@ void PrintItems(const Plan& plan, bool left_out, const char* title) {
     if (item.left_out != left_out) continue;
     if (!any) std::printf("%s\n", title);
     any = true;
-    std::printf("  %s: %s\n", item.item.c_str(), item.reason.c_str());
+    std::printf("  %s (%s): %s\n", item.item.c_str(), item.part.c_str(), item.reason.c_str());
     if (!item.saving.empty()) std::printf("    saves %s\n", item.saving.c_str());
   }
 }
@@ -87,13 +87,6 @@ void PrintPlan(const Plan& plan, const Options& options) {
 
 nlohmann::ordered_json PlanJson(const client::PlannedScene& planned) {
   const Plan& plan = planned.plan;
-  nlohmann::ordered_json items = nlohmann::ordered_json::array();
-  for (const PlanItem& item : plan.items) {
-    items.push_back({{"item", item.item},
-                     {"left_out", item.left_out},
-                     {"reason", item.reason},
-                     {"saving", item.saving}});
-  }
   nlohmann::ordered_json warnings = nlohmann::ordered_json::array();
   for (const Warning& warning : planned.warnings) {
     warnings.push_back({{"reason", warning.reason}, {"message", warning.message}});
@@ -106,7 +99,7 @@ nlohmann::ordered_json PlanJson(const client::PlannedScene& planned) {
           {"max_time_s", plan.options.max_time_s},
           {"first_pass_rays", plan.first_pass_rays},
           {"worker_bytes", plan.worker_bytes},
-          {"items", items},
+          {"items", PlanItemsJson(plan)},
           {"warnings", warnings}};
 }
 
@@ -121,7 +114,7 @@ absl::StatusOr<client::PlannedScene> MakePlanned(const SceneBundle& bundle, cons
   if (!patches.ok()) return patches.status();
   if (absl::Status status = CheckReference(*patches, options); !status.ok()) return status;
   if (!here) return PlanThere(bundle, options, interrupt);
-  if (absl::Status status = ValidateFor(*patches, options.solve.shoot); !status.ok()) {
+  if (absl::Status status = ValidateFor(*patches, options.solve); !status.ok()) {
     return status;
   }
   return client::PlannedScene{MakePlan(*patches, options.solve), patches->warnings};

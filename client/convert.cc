@@ -103,7 +103,8 @@ Plan FromProto(const v1::Plan& plan) {
   PatchOptions patch;  // not part of a plan
   FromProto(plan.spec(), patch, result.options);
   for (const v1::PlanItem& item : plan.items()) {
-    result.items.push_back({item.item(), item.left_out(), item.reason(), item.saving()});
+    result.items.push_back(
+        {item.part(), item.item(), item.left_out(), item.forced(), item.reason(), item.saving()});
   }
   result.patches = plan.patch_count();
   result.worker_bytes = plan.worker_size_bytes();

@@ -6,7 +6,6 @@
 #include "absl/time/clock.h"
 #include "radiosity/core/error.h"
 #include "radiosity/patch/build_patches.h"
-#include "radiosity/shoot/importance.h"
 #include "radiosity/shoot/shooter.h"
 #include "radiosity/solve/plan.h"
 #include "server/jobs/spec.h"
@@ -109,7 +108,7 @@ absl::StatusOr<v1::PlanSceneResponse> Coordinator::PlanScene(const v1::PlanScene
   if (!scene.ok()) return scene.status();
   absl::StatusOr<PatchSet> patches = BuildPatches(*scene, options->patch);
   if (!patches.ok()) return patches.status();
-  if (absl::Status status = ValidateFor(*patches, options->solve.shoot); !status.ok()) {
+  if (absl::Status status = ValidateFor(*patches, options->solve); !status.ok()) {
     return status;
   }
   v1::PlanSceneResponse response;

@@ -188,9 +188,9 @@ std::string Balance(const RunRecord& record, const UnitNames& units) {
 
 std::string PlanTable(const Plan& plan) {
   std::string html =
-      "<h2>Plan</h2><div class=\"scroll\"><table>" + Head({"Item", "", "Reason", "Saving"});
+      "<h2>Plan</h2><div class=\"scroll\"><table>" + Head({"Item", "Part", "", "Reason", "Saving"});
   for (const PlanItem& item : plan.items) {
-    html += "<tr>" + Cell(item.item) + Cell(item.left_out ? "left out" : "done") +
+    html += "<tr>" + Cell(item.item) + Cell(item.part) + Cell(item.left_out ? "left out" : "done") +
             Cell(item.reason) + Cell(item.saving) + "</tr>";
   }
   return html + "</table></div>";

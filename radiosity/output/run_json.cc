@@ -35,17 +35,10 @@ Json OptionsJson(const SolveOptions& solve, const PatchOptions& patch) {
 }
 
 Json PlanJson(const Plan& plan) {
-  Json items = Json::array();
-  for (const PlanItem& item : plan.items) {
-    items.push_back({{"item", item.item},
-                     {"left_out", item.left_out},
-                     {"reason", item.reason},
-                     {"saving", item.saving}});
-  }
   return {{"patches", plan.patches},
           {"worker_bytes", plan.worker_bytes},
           {"first_pass_rays", plan.first_pass_rays},
-          {"items", std::move(items)}};
+          {"items", PlanItemsJson(plan)}};
 }
 
 Json LedgerJson(const Ledger& ledger, const char* unit) {
@@ -96,6 +89,19 @@ Json PictureJson(const RunRecord& record, const View& view, const Exposure& expo
 }
 
 }  // namespace
+
+Json PlanItemsJson(const Plan& plan) {
+  Json items = Json::array();
+  for (const PlanItem& item : plan.items) {
+    items.push_back({{"part", item.part},
+                     {"item", item.item},
+                     {"left_out", item.left_out},
+                     {"forced", item.forced},
+                     {"reason", item.reason},
+                     {"saving", item.saving}});
+  }
+  return items;
+}
 
 std::string EncodeRunJson(const RunRecord& record, const View& view, const Exposure& exposure) {
   Json json;

@@ -30,6 +30,11 @@ double DensityNs(const PatchSet& patches, const ShootOptions& options) {
 
 }  // namespace
 
+bool CountsPatches(const ShootOptions& options) {
+  return UsesPyramids(options.method) && !LeastVarianceRule(options) &&
+         options.method != Method::kHs97 && options.method != Method::kHs98;
+}
+
 int64_t MinRaysForDensities(const PatchSet& patches, const ShootOptions& options) {
   const PyramidOptions& pyramids = options.pyramids;
   if (pyramids.min_rays > 0) return pyramids.min_rays;
@@ -67,11 +72,10 @@ DirectionTable::DirectionTable(const PatchSet& patches, const RayScene& scene,
       by_flux_(FromWorth(std::vector<double>(sampler_.fractions().size()))),
       kept_(patches.size()) {
   const bool probes = options.method == Method::kHs97 || options.method == Method::kHs98;
-  if (probes) return;
-  if (LeastVarianceRule(options)) {
+  if (CountsPatches(options)) {
+    clusters_ = std::make_unique<ClusterTree>(patches, options.parts.with.Has(Part::kBlack));
+  } else if (!probes) {
     targets_ = std::make_unique<TargetTree>(patches, hit_worth_);
-  } else {
-    clusters_ = std::make_unique<ClusterTree>(patches, options.pyramids.count_black);
   }
 }
 
@@ -88,8 +92,8 @@ std::vector<double> DirectionTable::Worth(PatchIndex patch) const {
                          targets_->Moments(PatchFrame(patches_, patch), cells, opening));
   }
   if (clusters_ != nullptr) {
-    const std::vector<int32_t> counts =
-        clusters_->CountPatches(PatchFrame(patches_, patch), cells, options_.pyramids.use_clusters);
+    const std::vector<int32_t> counts = clusters_->CountPatches(
+        PatchFrame(patches_, patch), cells, !options_.parts.without.Has(Part::kClusters));
     return {counts.begin(), counts.end()};
   }
   // hs98: the probing rays are of no seed, so that the densities are those of the scene.

@@ -16,6 +16,10 @@
 
 namespace lambert {
 
+// Whether densities count the patches in each pyramid (ClusterTree): those of the methods phs* by
+// the rule of counts.
+bool CountsPatches(const ShootOptions& options);
+
 // Rays that a patch must shoot in one visit for its densities to be worth computing, where
 // `min_rays` leaves the choice open: computing them then costs about a tenth of tracing.
 int64_t MinRaysForDensities(const PatchSet& patches, const ShootOptions& options);

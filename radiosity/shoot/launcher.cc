@@ -17,7 +17,7 @@ absl::StatusOr<std::unique_ptr<Launcher>> Launcher::Create(const PatchSet& patch
                                                            const ShootOptions& options,
                                                            const RayScene& scene) {
   std::unique_ptr<Launcher> launcher(new Launcher(patches, options, scene));
-  if (!UsesPyramids(options.method)) return launcher;
+  if (!UsesPyramids(options.method) || options.parts.without.Has(Part::kPyramids)) return launcher;
   absl::StatusOr<std::vector<double>> worth =
       HitWorth(patches, scene, launcher->emitters_, options);
   if (!worth.ok()) return worth.status();

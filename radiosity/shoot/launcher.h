@@ -67,7 +67,7 @@ class Launcher {
   const ShootOptions options_;
   const RayScene& scene_;
   const Emitters emitters_;
-  std::unique_ptr<DirectionTable> directions_;  // null: no method of pyramids
+  std::unique_ptr<DirectionTable> directions_;  // null: no pyramids
 };
 
 }  // namespace lambert

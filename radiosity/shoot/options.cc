@@ -119,6 +119,9 @@ int PyramidOptions::CellCount() const {
 absl::Status ShootOptions::Validate() const {
   if (absl::Status status = CheckCells(pyramids); !status.ok()) return status;
   if (absl::Status status = CheckDensities(pyramids); !status.ok()) return status;
+  if (const PartSet both = parts.with & parts.without; both != PartSet()) {
+    return FieldError("with, without", both.Text() + " stands in both", "name it in one of them");
+  }
   if (method == Method::kImportance && region.empty()) {
     return FieldError("region", "the method importance needs to know what is important",
                       "name a node with --region");

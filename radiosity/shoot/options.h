@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "radiosity/shoot/parts.h"
 #include "radiosity/shoot/ray_numbers.h"
 
 namespace lambert {
@@ -69,8 +70,6 @@ struct PyramidOptions {
   double alpha1 = 1;  // weight of f_p, >= 0
   double alpha2 = 1;  // weight of g, >= 0; the sum of both > 0
   PyramidSampling sampling = PyramidSampling::kProjectedAngle;
-  bool count_black = false;   // true: patches of null reflectance count in n_ip too
-  bool use_clusters = true;   // false: test every vertex; the counts are the same
   bool count_unseen = false;  // phs-alpha: patches that were not hit yet are estimated (Cha84)
   int probes = 4;             // hs97, hs98: probing rays for each pyramid, >= 1
   // phs-hier: rays of a step from one element to another, at most (refinement.h).
@@ -93,6 +92,7 @@ struct ShootOptions {
   PyramidOptions pyramids;
   Sequence sequence = Sequence::kRandom;
   Allocation allocation = Allocation::kFlux;
+  Parts parts;
   std::vector<std::string> region;  // importance: nodes by name or glTF index
   bool operator==(const ShootOptions&) const = default;
   absl::Status Validate() const;  // FIELD_INVALID naming the field that is out of range

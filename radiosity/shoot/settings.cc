@@ -76,9 +76,26 @@ ShootSetting ChoiceSetting(const char* name, const char* choices, const char* he
       }};
 }
 
+const char* PartChoices() {
+  static const std::string choices = [] {
+    std::string names;
+    for (Part part : AllParts()) names += (names.empty() ? "" : "|") + std::string(PartName(part));
+    return names + ",...";
+  }();
+  return choices.c_str();
+}
+
+template <auto Member>
+ShootSetting PartSetting(const char* name, const char* help) {
+  return {name, PartChoices(), help, [](const ShootOptions& o) { return (o.parts.*Member).Text(); },
+          [](const std::string& text, ShootOptions& o) { return (o.parts.*Member).Read(text); }};
+}
+
 std::vector<ShootSetting> MakeSettings() {
   using P = PyramidOptions;
   return {
+      PartSetting<&Parts::with>("with", "parts that are done though the plan would not (none)"),
+      PartSetting<&Parts::without>("without", "parts that are left out (none)"),
       ChoiceSetting<kSequences>(
           "sequence", "random|sobol",
           "numbers of the rays: random, or sobol, spread evenly (random)",
@@ -122,12 +139,8 @@ std::vector<ShootSetting> MakeSettings() {
       NumberSetting<&P::min_rays>(
           "phs-min-rays", "N",
           "rays in one visit from which a patch gets densities; 0: chosen by cost (0)"),
-      FlagSetting<&P::count_black>("phs-count-black",
-                                   "count patches that reflect nothing too (no)"),
       FlagSetting<&P::count_unseen>("phs-count-unseen",
                                     "phs-alpha: estimate the patches that were not hit yet (no)"),
-      FlagSetting<&P::use_clusters>("phs-use-clusters",
-                                    "count by clusters: the same counts, sooner (yes)"),
   };
 }
 

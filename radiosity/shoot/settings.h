@@ -12,9 +12,10 @@
 namespace lambert {
 
 struct ShootSetting {
-  const char* name;        // "phs-depth": the flag without its dashes
-  const char* value_name;  // "N"; "a|b" lists the choices
-  const char* help;        // one line, ends with the default in parentheses
+  const char* name;  // "phs-depth": the flag without its dashes
+  const char*
+      value_name;    // "N"; "a|b" lists the choices, "a|b,..." where any number of them may be
+  const char* help;  // one line, ends with the default in parentheses
   std::string (*get)(const ShootOptions&);
   // False, and nothing changes, for text that is no value of this setting. Ranges are checked by
   // ShootOptions::Validate.

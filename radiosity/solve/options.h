@@ -15,7 +15,6 @@ struct SolveOptions {
   int64_t max_rays = 0;            // budget; 0: none
   double max_time_s = 0;           // budget of wall-clock seconds; 0: none
   double unsent_tolerance = 1e-9;  // a pass ends when unsent / emitted flux is under this
-  bool ambient = false;            // flux is shot ahead (radiosity/solve/ambient.h); of the plan
   int64_t max_steps = 1'000'000;   // of one pass; more: the job fails with STEPS_EXHAUSTED
   // With neither an error nor a budget, solving ends at `kDefaultMaxError`.
   absl::Status Validate() const;

@@ -1,10 +1,11 @@
 #include "radiosity/solve/plan.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 
-#include "radiosity/shoot/directions.h"
+#include "radiosity/core/error.h"
+#include "radiosity/shoot/importance.h"
+#include "radiosity/solve/choose_method.h"
+#include "radiosity/solve/needs.h"
 
 namespace lambert {
 namespace {
@@ -13,36 +14,7 @@ constexpr int64_t kMinFirstPassRays = 1 << 13;
 constexpr int64_t kMaxFirstPassRays = 1 << 20;
 constexpr int64_t kAmbientRaysOfPatch = 64;
 constexpr int64_t kMaxExactPassRays = 1 << 25;
-// A pass takes some thirty exchanges with the workers, however small: no more than ten or so of
-// them.
-constexpr int64_t kLeastShareOfBudget = 100;
 constexpr int64_t kPassesInBudget = 4;  // the first pass takes at most this share of --max-rays
-// Mean area times mean inverse area, 1 for equal patches. Over it, small patches stand among large
-// ones and pyramids send them more rays; under it they only add noise (docs/methods.md).
-constexpr double kUnevenAreas = 4;
-// From here on a pass has over a thousand steps.
-constexpr double kStiffReflectance = 0.99, kStiffShare = 0.01;
-
-double AreaUnevenness(const PatchSet& patches) {
-  double sum = 0, inverse = 0;
-  for (double area : patches.area_m2) {
-    sum += area;
-    inverse += 1 / area;
-  }
-  const double n = patches.size();
-  return (sum / n) * (inverse / n);
-}
-
-std::string Text(double value, const char* format = "%.3g") {
-  char text[64];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
-}
-
-int64_t CountBlack(const PatchSet& patches) {
-  return std::count_if(patches.reflectance.begin(), patches.reflectance.end(),
-                       [](const Rgb& rho) { return Mean(rho) == 0; });
-}
 
 int64_t WorkerBytes(const PatchSet& patches, const ShootOptions& shoot) {
   // Patch set 200, tracer 60 + 119 at the peak of its build, frames 36, one unit's deposits 32.
@@ -57,102 +29,101 @@ int64_t WorkerBytes(const PatchSet& patches, const ShootOptions& shoot) {
   return bytes;
 }
 
-PlanItem PyramidItem(const ShootOptions& shoot, double unevenness, bool chosen) {
-  PlanItem item{"pyramids", !UsesPyramids(shoot.method), "", ""};
-  if (!chosen) {
-    item.reason = std::string("the method is ") + MethodName(shoot.method) + ", as asked";
-  } else if (item.left_out) {
-    item.reason = "patch areas are even (mean area times mean inverse area " + Text(unevenness) +
-                  ", under " + Text(kUnevenAreas) + "): densities would only add noise";
-  } else {
-    item.reason = "patch areas are uneven (mean area times mean inverse area " + Text(unevenness) +
-                  "): small patches get more rays";
-  }
+// The method before its parts are decided.
+MethodChoice ResolveMethod(const PatchSet& patches, const SolveOptions& options) {
+  const ShootOptions& shoot = options.shoot;
+  if (shoot.method != Method::kAuto) return {shoot.method, ""};
+  if (shoot.parts.with.Has(Part::kPyramids)) return {Method::kPhs, "pyramids are asked for"};
+  if (shoot.parts.without.Has(Part::kPyramids)) return {Method::kPmcr, "no pyramids are asked for"};
+  return ChooseMethod(patches, options);
+}
+
+// The method without the parts that are left out of it.
+Method WithoutParts(Method method, PartSet without) {
+  if (method == Method::kPhsAlpha && without.Has(Part::kAlpha)) method = Method::kPhs;
+  if (method == Method::kPhsHier && without.Has(Part::kHierarchy)) method = Method::kPhs;
+  const bool is_pyramids = UsesPyramids(method) && method != Method::kPhsHier;
+  return is_pyramids && without.Has(Part::kPyramids) ? Method::kPmcr : method;
+}
+
+PlanItem Decide(const Need& need, const Parts& asked, Parts& decided) {
+  const bool with = asked.with.Has(need.part), without = asked.without.Has(need.part);
+  const bool left_out = without || (!with && !need.needed);
+  PlanItem item{PartName(need.part), need.item, left_out, with || without, need.reason, ""};
+  (item.left_out ? decided.without : decided.with).Add(need.part);
+  if (item.forced) item.reason = "as asked; by itself: " + item.reason;
+  if (item.left_out) item.saving = need.saving;
   return item;
 }
 
-PlanItem DensityItem(const PatchSet& patches, const ShootOptions& shoot) {
-  const int64_t least = MinRaysForDensities(patches, shoot);
-  return {"densities of dim patches", true,
-          "a patch that shoots under " + std::to_string(least) +
-              " rays in a visit shoots them by the cosine law",
-          "keeps the densities under a tenth of the time of tracing"};
-}
-
-PlanItem ClearPairsItem() {
-  return {"rays between patches in plain sight", true,
-          "where nothing reaches into the hull of two patches their form factor is a closed form",
-          "every ray of a convex scene"};
-}
-
-PlanItem AmbientItem(bool used) {
-  if (used) {
-    return {"ambient flux", false,
-            "some part reflects " + Text(100 * kStiffReflectance) +
-                " % or more: where little is lost at a bounce, flux is shot before it has arrived",
-            ""};
-  }
-  return {"ambient flux", true,
-          "less than " + Text(100 * kStiffShare) + " % of the area reflects " +
-              Text(100 * kStiffReflectance) + " % or more: light dies out soon",
-          "the search for parts that exchange no light"};
-}
-
-// Whether some part of the scene, such as one room of it, may reflect nearly all.
-bool IsStiff(const PatchSet& patches) {
-  double area = 0, bright = 0;
-  for (PatchIndex i = 0; i < patches.size(); ++i) {
-    const Rgb rho = patches.reflectance[i];
-    area += patches.area_m2[i];
-    if (std::max({rho.r, rho.g, rho.b}) >= kStiffReflectance) bright += patches.area_m2[i];
-  }
-  return bright >= kStiffShare * area;
-}
-
-// Large enough that sampling takes about as long as the linear system.
-int64_t FirstPassRays(const PatchSet& patches, Method method, bool ambient) {
-  const int64_t n = patches.size();
-  // Where flux is shot ahead the noise is shot again: as little as there is with many rays a patch.
-  if (ambient) return std::clamp(kAmbientRaysOfPatch * n, kMinFirstPassRays, kMaxExactPassRays);
-  return std::clamp<int64_t>(method == Method::kExact ? n * n : 2 * n, kMinFirstPassRays,
-                             method == Method::kExact ? kMaxExactPassRays : kMaxFirstPassRays);
+absl::Status Refused(const char* option, Part part, const std::string& why) {
+  return MakeError(absl::StatusCode::kInvalidArgument,
+                   {"FIELD_INVALID", std::string("--") + option + " " + PartName(part), why,
+                    "see lambert plan"});
 }
 
 }  // namespace
+
+absl::Status ValidateFor(const PatchSet& patches, const SolveOptions& options) {
+  if (absl::Status status = ValidateFor(patches, options.shoot); !status.ok()) return status;
+  SolveOptions solve = options;
+  solve.shoot.method = ResolveMethod(patches, options).method;
+  const Parts& asked = options.shoot.parts;
+  PartSet there;
+  for (const Need& need : FindNeeds(patches, solve)) {
+    there.Add(need.part);
+    const bool other_way = need.needed ? asked.without.Has(need.part) : asked.with.Has(need.part);
+    if (other_way && !need.only_way.empty()) {
+      return Refused(need.needed ? "without" : "with", need.part, need.only_way);
+    }
+  }
+  for (Part part : AllParts()) {
+    if (asked.with.Has(part) && !there.Has(part)) {
+      return Refused("with", part,
+                     std::string("the method ") + MethodName(solve.shoot.method) +
+                         " has no such part in this scene");
+    }
+  }
+  return absl::OkStatus();
+}
+
+// Large enough that sampling takes about as long as the linear system.
+int64_t FirstPassRays(const PatchSet& patches, const SolveOptions& planned) {
+  const int64_t n = patches.size();
+  const bool exact = planned.shoot.method == Method::kExact;
+  int64_t rays = std::clamp<int64_t>(exact ? n * n : 2 * n, kMinFirstPassRays,
+                                     exact ? kMaxExactPassRays : kMaxFirstPassRays);
+  // Where flux is shot ahead the noise is shot again: as little as there is with many rays a patch.
+  if (planned.shoot.parts.with.Has(Part::kAmbient)) {
+    rays = std::clamp(kAmbientRaysOfPatch * n, kMinFirstPassRays, kMaxExactPassRays);
+  }
+  if (planned.max_rays == 0) return rays;
+  const int64_t share = planned.max_rays / kPassesInBudget;
+  // mcr shares its budget out evenly.
+  const bool even = planned.shoot.method == Method::kMcr;
+  return std::max<int64_t>(1, even ? share : std::min(rays, share));
+}
 
 Plan MakePlan(const PatchSet& patches, const SolveOptions& options) {
   Plan plan;
   plan.options = options;
   SolveOptions& solve = plan.options;
-  const bool chosen = solve.shoot.method == Method::kAuto;
-  const double unevenness = AreaUnevenness(patches);
-  if (chosen) solve.shoot.method = unevenness > kUnevenAreas ? Method::kPhs : Method::kPmcr;
+  const MethodChoice choice = ResolveMethod(patches, options);
+  solve.shoot.method = choice.method;
   if (solve.max_error == 0 && solve.max_rays == 0 && solve.max_time_s == 0) {
     solve.max_error = kDefaultMaxError;
   }
-  solve.ambient = IsStiff(patches) && solve.shoot.method != Method::kExact;
+  Parts decided;
+  for (Need& need : FindNeeds(patches, solve)) {
+    if (need.part == Part::kPyramids && !choice.reason.empty()) need.reason = choice.reason;
+    plan.items.push_back(Decide(need, options.shoot.parts, decided));
+  }
+  solve.shoot.parts = decided;
+  solve.shoot.method = WithoutParts(solve.shoot.method, decided.without);
+  if (decided.with.Has(Part::kDimDensities)) solve.shoot.pyramids.min_rays = 1;
   plan.patches = patches.size();
   plan.worker_bytes = WorkerBytes(patches, solve.shoot);
-  plan.first_pass_rays = FirstPassRays(patches, solve.shoot.method, solve.ambient);
-  if (solve.max_rays > 0) {
-    const int64_t share = solve.max_rays / kPassesInBudget;
-    // mcr shares its budget out evenly.
-    const bool even = solve.shoot.method == Method::kMcr;
-    plan.first_pass_rays =
-        std::max<int64_t>(1, even ? share : std::min(plan.first_pass_rays, share));
-  }
-  plan.items.push_back(PyramidItem(solve.shoot, unevenness, chosen));
-  if (UsesPyramids(solve.shoot.method)) {
-    plan.items.push_back(DensityItem(patches, solve.shoot));
-  }
-  if (solve.shoot.method == Method::kExact) plan.items.push_back(ClearPairsItem());
-  plan.items.push_back(AmbientItem(solve.ambient));
-  if (const int64_t black = CountBlack(patches); black > 0) {
-    plan.items.push_back(
-        {"rays from black patches", true, std::to_string(black) + " patches reflect nothing",
-         Text(100.0 * static_cast<double>(black) / static_cast<double>(patches.size()), "%.0f") +
-             " % of the patches never shoot what they receive"});
-  }
+  plan.first_pass_rays = FirstPassRays(patches, solve);
   return plan;
 }
 

@@ -62,7 +62,7 @@ struct Solver::State {
     if (options.shoot.method == Method::kPhsHier) {
       tree = std::make_unique<const SurfaceTree>(*patches);
     }
-    at.pass_rays = MakePlan(*patches, options).first_pass_rays;
+    at.pass_rays = FirstPassRays(*patches, options);
     at.rays_per_first_ray = GuessRaysPerFirstRay(*patches);
     const Rgb emitted = EmittedFlux(*patches);
     if (!(emitted.r + emitted.g + emitted.b > 0)) {
@@ -103,7 +103,7 @@ absl::Status Solver::State::Prepare() {
   absl::StatusOr<std::vector<double>> made = AllocationWeights(*patches, options.shoot);
   if (!made.ok()) return made.status();
   weights = *std::move(made);
-  if (options.ambient) {
+  if (options.shoot.parts.with.Has(Part::kAmbient)) {
     absl::StatusOr<std::unique_ptr<RayScene>> scene = RayScene::Create(*patches);
     if (!scene.ok()) return scene.status();
     light_groups = FindLightGroups(*patches, **scene);

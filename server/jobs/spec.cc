@@ -64,6 +64,8 @@ v1::Plan EncodePlan(const Plan& plan, const v1::SolveSpec& asked) {
     added->set_left_out(item.left_out);
     added->set_reason(item.reason);
     added->set_saving(item.saving);
+    added->set_part(item.part);
+    added->set_forced(item.forced);
   }
   proto.set_patch_count(plan.patches);
   proto.set_worker_size_bytes(plan.worker_bytes);

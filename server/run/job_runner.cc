@@ -6,7 +6,6 @@
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
 #include "radiosity/patch/build_patches.h"
-#include "radiosity/shoot/importance.h"
 #include "radiosity/shoot/options_codec.h"
 #include "radiosity/solve/plan.h"
 #include "server/base/status_proto.h"
@@ -44,7 +43,7 @@ absl::Status JobRunner::Solve(Job& job) {
   if (!options.ok()) return options.status();
   absl::StatusOr<std::shared_ptr<const PatchSet>> patches = PreparePatches(job, options->patch);
   if (!patches.ok()) return patches.status();
-  if (absl::Status status = ValidateFor(**patches, options->solve.shoot); !status.ok()) {
+  if (absl::Status status = ValidateFor(**patches, options->solve); !status.ok()) {
     return status;
   }
   const Plan plan = MakePlan(**patches, options->solve);

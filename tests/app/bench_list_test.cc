@@ -21,19 +21,19 @@ std::string Bad(const std::vector<std::string>& written) {
 }
 
 TEST(BenchEntries, AnEntrySetsTheOptionsOfItsMethod) {
-  const auto entries =
-      ParseBenchEntries({"pmcr", "phs:initial=5:depth=1:sampling=solid-angle:count-black=yes"}, {});
+  const auto entries = ParseBenchEntries(
+      {"pmcr", "phs:initial=5:depth=1:sampling=solid-angle:without=black+clusters"}, {});
   ASSERT_TRUE(entries.ok()) << entries.status();
   ASSERT_EQ(entries->size(), 2u);
   EXPECT_EQ((*entries)[0].solve.shoot.method, Method::kPmcr);
   const BenchEntry& phs = (*entries)[1];
-  EXPECT_EQ(phs.label, "phs:initial=5:depth=1:sampling=solid-angle:count-black=yes");
+  EXPECT_EQ(phs.label, "phs:initial=5:depth=1:sampling=solid-angle:without=black+clusters");
   EXPECT_TRUE(phs.by_name);
   EXPECT_EQ(phs.solve.shoot.method, Method::kPhs);
   EXPECT_EQ(phs.solve.shoot.pyramids.initial, 5);
   EXPECT_EQ(phs.solve.shoot.pyramids.depth, 1);
   EXPECT_EQ(phs.solve.shoot.pyramids.sampling, PyramidSampling::kSolidAngle);
-  EXPECT_TRUE(phs.solve.shoot.pyramids.count_black);
+  EXPECT_TRUE(phs.solve.shoot.parts.without.Has(Part::kClusters));
 }
 
 TEST(BenchEntries, WhatAnEntryLeavesOpenComesFromTheBenchsOwnOptions) {

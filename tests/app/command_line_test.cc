@@ -58,8 +58,8 @@ TEST(CommandLine, EveryOptionOfTheContractActs) {
                                 "0.5",         "--phs-alpha2",
                                 "2",           "--phs-sampling",
                                 "solid-angle", "--phs-min-rays",
-                                "16",          "--phs-count-black",
-                                "yes",         "--json",
+                                "16",          "--with",
+                                "black",       "--json",
                                 "--progress",  "json"});
   EXPECT_EQ(options.command, Command::kBake);
   EXPECT_EQ(options.scene_path, "room.glb");
@@ -84,7 +84,7 @@ TEST(CommandLine, EveryOptionOfTheContractActs) {
   EXPECT_EQ(pyramids.alpha2, 2);
   EXPECT_EQ(pyramids.sampling, PyramidSampling::kSolidAngle);
   EXPECT_EQ(pyramids.min_rays, 16);
-  EXPECT_TRUE(pyramids.count_black);
+  EXPECT_TRUE(options.solve.shoot.parts.with.Has(Part::kBlack));
   EXPECT_TRUE(options.json);
   EXPECT_EQ(options.progress, ProgressMode::kJson);
 }
@@ -127,6 +127,24 @@ TEST(CommandLine, EveryOptionHasAVariableAndAKey) {
 
 TEST(CommandLine, SettingsOfOtherCommandsAreLeftAlone) {
   EXPECT_EQ(Good({"jobs", "--server", "h:1"}, "max-error = 0.01\n").command, Command::kJobs);
+}
+
+TEST(CommandLine, PartsComeByCommasAndOneByOneAndFromEverySource) {
+  const auto with = [](const Options& options) { return options.solve.shoot.parts.with.Text(); };
+  EXPECT_EQ(with(Good({"plan", "a.glb"})), "none");
+  EXPECT_EQ(with(Good({"plan", "a.glb", "--with", "black,color", "--with", "ambient"})),
+            "color,black,ambient");
+  EXPECT_EQ(with(Good({"plan", "a.glb"}, "with = [\"black\", \"color\"]\n")), "color,black");
+  EXPECT_EQ(with(Good({"plan", "a.glb"}, "", {{"LAMBERT_WITH", "black,color"}})), "color,black");
+  const Options without = Good({"plan", "a.glb", "--without", "std-error"});
+  EXPECT_TRUE(without.solve.shoot.parts.without.Has(Part::kStdError));
+}
+
+TEST(CommandLine, PartsThatAreNoneOrBothAreRefused) {
+  const std::string unknown = Bad({"plan", "a.glb", "--without", "color,colour"});
+  EXPECT_EQ(unknown.find("--without: 'colour' is not color|pyramids|"), 0u) << unknown;
+  EXPECT_EQ(Bad({"plan", "a.glb", "--with", "color,black", "--without", "black"}),
+            "with, without: black stands in both; name it in one of them");
 }
 
 TEST(CommandLine, QualityIsAWantedErrorByName) {

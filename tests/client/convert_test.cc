@@ -18,9 +18,10 @@ TEST(Convert, OptionsComeBackAsTheyWent) {
                           .alpha1 = 0.25,
                           .alpha2 = 0,
                           .sampling = PyramidSampling::kSolidAngle,
-                          .count_black = true,
-                          .use_clusters = false,
                           .min_rays = 9};
+  solve.shoot.parts.with.Add(Part::kColor);
+  solve.shoot.parts.without.Add(Part::kClusters);
+  solve.shoot.parts.without.Add(Part::kStdError);
   solve.seed = 18446744073709551615u;
   solve.max_error = 0.02;
   solve.max_rays = int64_t{1} << 40;
@@ -43,8 +44,7 @@ TEST(Convert, OptionsComeBackAsTheyWent) {
   EXPECT_EQ(pyramids.alpha1, 0.25);
   EXPECT_EQ(pyramids.alpha2, 0);
   EXPECT_EQ(pyramids.sampling, PyramidSampling::kSolidAngle);
-  EXPECT_TRUE(pyramids.count_black);
-  EXPECT_FALSE(pyramids.use_clusters);
+  EXPECT_EQ(solve_back.shoot.parts, solve.shoot.parts);
   EXPECT_EQ(pyramids.min_rays, 9);
   EXPECT_EQ(solve_back.seed, solve.seed);
   EXPECT_EQ(solve_back.max_error, solve.max_error);

@@ -41,9 +41,8 @@ std::vector<double> Densities(const CellSpans& spans) {
 std::vector<double> CountedDirectly(const PatchSet& patches, const PyramidOptions& options,
                                     PatchIndex i) {
   const CellSampler sampler(options);
-  const ClusterTree tree(patches, options.count_black);
-  const std::vector<int32_t> counts =
-      tree.CountPatches(PatchFrame(patches, i), sampler.cells(), options.use_clusters);
+  const ClusterTree tree(patches, /*count_black=*/false);
+  const std::vector<int32_t> counts = tree.CountPatches(PatchFrame(patches, i), sampler.cells());
   return Densities(CellSpans(CellDensities(sampler.fractions(), {counts.begin(), counts.end()},
                                            options.alpha1, options.alpha2)));
 }
@@ -65,7 +64,7 @@ TEST(DirectionTable, HoldsTheDensitiesOfEveryPatchAtTheFirstAndTheSecondCall) {
 
 TEST(DirectionTable, DoesNotDependOnClusters) {
   ShootOptions without = With(Method::kPhs);
-  without.pyramids.use_clusters = false;
+  without.parts.without.Add(Part::kClusters);
   const Made a(MakeOffice(1), With(Method::kPhs)), b(MakeOffice(1), without);
   for (PatchIndex i = 0; i < a.patches.size(); i += 11) {
     EXPECT_EQ(Densities(a.table.Get(i)->spans), Densities(b.table.Get(i)->spans));

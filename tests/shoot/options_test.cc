@@ -150,8 +150,8 @@ ShootOptions UnusualOptions() {
   p.alpha1 = 0.25;
   p.alpha2 = 0.1;  // not a sum of powers of two
   p.sampling = PyramidSampling::kSolidAngle;
-  p.count_black = true;
-  p.use_clusters = false;
+  options.parts.with.Add(Part::kBlack);
+  options.parts.without.Add(Part::kClusters);
   p.count_unseen = true;
   p.probes = 9;
   p.min_rays = 12345;

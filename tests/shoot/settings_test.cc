@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "radiosity/core/error.h"
@@ -25,8 +26,9 @@ TEST(ShootSettings, HaveNamesOfTheirOwnAndGiveBackWhatTheyTake) {
 
 TEST(ShootSettings, EveryChoiceIsTakenAndChangesTheOptions) {
   for (const ShootSetting& setting : ShootSettings()) {
-    const std::string choices = setting.value_name;
+    std::string choices = setting.value_name;
     if (choices.find('|') == std::string::npos) continue;
+    choices = choices.substr(0, choices.find(",..."));  // any number of them
     std::set<std::string> seen;
     for (size_t begin = 0; begin <= choices.size();) {
       const size_t end = std::min(choices.find('|', begin), choices.size());
@@ -35,7 +37,8 @@ TEST(ShootSettings, EveryChoiceIsTakenAndChangesTheOptions) {
       seen.insert(setting.get(options));
       begin = end + 1;
     }
-    EXPECT_EQ(seen.size(), 2u) << setting.name;
+    const auto count = std::count(choices.begin(), choices.end(), '|') + 1;
+    EXPECT_EQ(static_cast<long>(seen.size()), count) << setting.name;
   }
 }
 

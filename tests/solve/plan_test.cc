@@ -7,9 +7,9 @@
 namespace lambert {
 namespace {
 
-const PlanItem* Find(const Plan& plan, const std::string& item) {
-  for (const PlanItem& i : plan.items) {
-    if (i.item == item) return &i;
+const PlanItem* Find(const Plan& plan, const std::string& part) {
+  for (const PlanItem& item : plan.items) {
+    if (item.part == part) return &item;
   }
   return nullptr;
 }
@@ -70,6 +70,7 @@ TEST(MakePlan, EveryItemHasAReason) {
     EXPECT_FALSE(plan.items.empty());
     for (const PlanItem& item : plan.items) {
       EXPECT_FALSE(item.item.empty());
+      EXPECT_FALSE(item.part.empty());
       EXPECT_FALSE(item.reason.empty()) << item.item;
     }
     ASSERT_NE(Find(plan, "pyramids"), nullptr);
@@ -79,14 +80,84 @@ TEST(MakePlan, EveryItemHasAReason) {
 
 TEST(MakePlan, NamesBlackPatchesWithTheirNumberAndSaving) {
   PatchSet patches = PatchesOf(MakeFurnace(0.5));
-  EXPECT_EQ(Find(MakePlan(patches, {}), "rays from black patches"), nullptr);
+  EXPECT_EQ(Find(MakePlan(patches, {}), "black"), nullptr);
   for (PatchIndex i = 0; i < 3; ++i) patches.reflectance[i] = {};
   const Plan plan = MakePlan(patches, {});
-  const PlanItem* item = Find(plan, "rays from black patches");
+  const PlanItem* item = Find(plan, "black");
   ASSERT_NE(item, nullptr);
   EXPECT_TRUE(item->left_out);
   EXPECT_NE(item->reason.find("3 "), std::string::npos) << item->reason;
   EXPECT_NE(item->saving.find("25 %"), std::string::npos) << item->saving;
+}
+
+// Options of a method that ask for parts.
+SolveOptions Asked(Method method, std::initializer_list<Part> with,
+                   std::initializer_list<Part> without = {}) {
+  SolveOptions options;
+  options.shoot.method = method;
+  for (Part part : with) options.shoot.parts.with.Add(part);
+  for (Part part : without) options.shoot.parts.without.Add(part);
+  return options;
+}
+
+TEST(MakePlan, PartsThatAreAskedForAreForcedAndTheOthersAreDecided) {
+  const PatchSet patches = Uneven();
+  const Plan plan = MakePlan(
+      patches, Asked(Method::kPhs, {Part::kDimDensities, Part::kAmbient}, {Part::kClusters}));
+  EXPECT_EQ(plan.options.shoot.pyramids.min_rays, 1);
+  for (const PlanItem& item : plan.items) {
+    const bool with = item.part == "dim-densities" || item.part == "ambient";
+    EXPECT_EQ(item.forced, with || item.part == "clusters") << item.part;
+    if (item.forced) {
+      EXPECT_EQ(item.left_out, !with) << item.part;
+    }
+  }
+  const Parts& decided = plan.options.shoot.parts;
+  EXPECT_TRUE(decided.with.Has(Part::kPyramids));
+  EXPECT_TRUE(decided.with.Has(Part::kAmbient));
+  EXPECT_TRUE(decided.without.Has(Part::kClusters));
+  EXPECT_EQ(decided.with & decided.without, PartSet());
+  EXPECT_TRUE(plan.options.Validate().ok());
+}
+
+TEST(MakePlan, PyramidsChooseTheMethodAndLeaveIt) {
+  const PatchSet even = PatchesOf(MakeFurnace(0.5)), uneven = Uneven();
+  const auto method = [](const PatchSet& patches, const SolveOptions& options) {
+    return MakePlan(patches, options).options.shoot.method;
+  };
+  EXPECT_EQ(method(even, Asked(Method::kAuto, {Part::kPyramids})), Method::kPhs);
+  EXPECT_EQ(method(uneven, Asked(Method::kAuto, {}, {Part::kPyramids})), Method::kPmcr);
+  EXPECT_EQ(method(uneven, Asked(Method::kPhs, {}, {Part::kPyramids})), Method::kPmcr);
+  EXPECT_EQ(method(uneven, Asked(Method::kPhsHier, {}, {Part::kPyramids})), Method::kPhsHier);
+}
+
+TEST(MakePlan, WhatOthersWouldCountOrSpreadIsLeftOutWhereItIsTheSame) {
+  const PatchSet convex = PatchesOf(MakeFurnace(0.5, 1, 2)), cornell = PatchesOf(MakeCornell(1));
+  EXPECT_EQ(MakePlan(convex, Asked(Method::kPhsAlpha, {})).options.shoot.method, Method::kPhs);
+  EXPECT_EQ(MakePlan(convex, Asked(Method::kPhsAlpha, {Part::kAlpha})).options.shoot.method,
+            Method::kPhsAlpha);
+  EXPECT_EQ(MakePlan(cornell, Asked(Method::kPhsAlpha, {})).options.shoot.method,
+            Method::kPhsAlpha);
+  EXPECT_EQ(MakePlan(cornell, Asked(Method::kPhsHier, {})).options.shoot.method, Method::kPhsHier);
+  PatchSet loose = convex;  // every patch a surface of its own
+  for (PatchIndex i = 0; i < loose.size(); ++i) loose.source[i].node = i;
+  EXPECT_EQ(MakePlan(loose, Asked(Method::kPhsHier, {})).options.shoot.method, Method::kPhs);
+}
+
+TEST(ValidateFor, RefusesPartsThatCannotBeOtherwiseAndSaysWhy) {
+  const PatchSet patches = PatchesOf(MakeCornell(1));
+  const auto message = [&](const SolveOptions& options) {
+    return std::string(ValidateFor(patches, options).message());
+  };
+  EXPECT_EQ(message(Asked(Method::kPhs, {Part::kClusters}, {Part::kDimDensities})), "");
+  EXPECT_NE(message(Asked(Method::kPmcr, {Part::kPyramids})).find("--method phs"),
+            std::string::npos);
+  EXPECT_NE(message(Asked(Method::kPmcr, {Part::kAlpha})).find("no such part"), std::string::npos);
+  SolveOptions importance = Asked(Method::kImportance, {}, {Part::kPyramids});
+  importance.shoot.region = {"0"};
+  EXPECT_NE(message(importance).find("is its pyramids"), std::string::npos);
+  EXPECT_NE(message(Asked(Method::kExact, {Part::kVisibility})).find("--with visibility"),
+            std::string::npos);
 }
 
 TEST(MakePlan, SizesGrowWithTheSceneAndTheFirstPassFitsTheBudget) {

@@ -1,0 +1,131 @@
+#include "radiosity/solve/needs.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "radiosity/patch/convex.h"
+#include "radiosity/patch/surface_tree.h"
+#include "radiosity/shoot/directions.h"
+
+namespace lambert {
+namespace {
+
+// From here on a pass has over a thousand steps.
+constexpr double kStiffReflectance = 0.99, kStiffShare = 0.01;
+// Clusters count sooner from about here on (docs/benchmarks.md, "What densities cost").
+constexpr PatchIndex kLeastClustered = 1000;
+
+std::string Text(double value, const char* format = "%.3g") {
+  char text[64];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+int64_t CountBlack(const PatchSet& patches) {
+  return std::count_if(patches.reflectance.begin(), patches.reflectance.end(),
+                       [](const Rgb& rho) { return Mean(rho) == 0; });
+}
+
+Need PyramidNeed(Method method) {
+  Need need{Part::kPyramids, "pyramids", UsesPyramids(method)};
+  need.reason = std::string("the method is ") + MethodName(method) + ", as asked";
+  if (!need.needed) {
+    need.only_way = std::string("the method ") + MethodName(method) + " has none; use --method phs";
+  } else if (method == Method::kImportance) {
+    need.only_way = "the method importance is its pyramids; use --method pmcr";
+  }
+  return need;
+}
+
+Need DimDensityNeed(const PatchSet& patches, const ShootOptions& shoot) {
+  return {Part::kDimDensities, "densities of dim patches", false,
+          "a patch that shoots under " + std::to_string(MinRaysForDensities(patches, shoot)) +
+              " rays in a visit shoots them by the cosine law",
+          "keeps the densities under a tenth of the time of tracing"};
+}
+
+Need BlackNeed(const PatchSet& patches, bool counts) {
+  const int64_t black = CountBlack(patches);
+  Need need{Part::kBlack, "black patches", false,
+            std::to_string(black) + " patches reflect nothing: they shoot nothing" +
+                (counts ? " and do not count in densities" : "")};
+  need.saving = Text(100.0 * static_cast<double>(black) / patches.size(), "%.0f") +
+                " % of the patches never shoot what they receive";
+  if (!counts)
+    need.only_way = "what reflects nothing has nothing to shoot, and no patch is counted";
+  return need;
+}
+
+Need ClusterNeed(const PatchSet& patches) {
+  const bool many = patches.size() >= kLeastClustered;
+  return {Part::kClusters, "counting by clusters", many,
+          std::string(many ? "from " : "under ") + std::to_string(kLeastClustered) +
+              " patches on, balls around clusters spare most vertices"};
+}
+
+Need AlphaNeed(const PatchSet& patches) {
+  const bool convex = IsConvex(patches);
+  return {Part::kAlpha, "counts of what was hit", !convex,
+          convex ? "the scene is convex: what stands in a pyramid is hit"
+                 : "some patches may hide others"};
+}
+
+Need HierarchyNeed(const PatchSet& patches) {
+  const bool has_elements = !SurfaceTree(patches).elements().empty();
+  return {Part::kHierarchy, "hierarchy of elements", has_elements,
+          has_elements ? "light that is weak rests at elements of several patches"
+                       : "no flat surface has two patches: every element is a patch"};
+}
+
+// Whether some part of the scene, such as one room of it, may reflect nearly all.
+bool IsStiff(const PatchSet& patches) {
+  double area = 0, bright = 0;
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    const Rgb rho = patches.reflectance[i];
+    area += patches.area_m2[i];
+    if (std::max({rho.r, rho.g, rho.b}) >= kStiffReflectance) bright += patches.area_m2[i];
+  }
+  return bright >= kStiffShare * area;
+}
+
+Need AmbientNeed(const PatchSet& patches) {
+  if (IsStiff(patches)) {
+    return {Part::kAmbient, "ambient flux", true,
+            "some part reflects " + Text(100 * kStiffReflectance) +
+                " % or more: where little is lost at a bounce, flux is shot before it has arrived"};
+  }
+  return {Part::kAmbient, "ambient flux", false,
+          "less than " + Text(100 * kStiffShare) + " % of the area reflects " +
+              Text(100 * kStiffReflectance) + " % or more: light dies out soon",
+          "the search for parts that exchange no light"};
+}
+
+Need ClearPairsNeed() {
+  return {Part::kVisibility,
+          "rays between patches in plain sight",
+          false,
+          "where nothing reaches into the hull of two patches their form factor is a closed form",
+          "every ray of a convex scene",
+          "a closed form has nothing that rays could add"};
+}
+
+}  // namespace
+
+std::vector<Need> FindNeeds(const PatchSet& patches, const SolveOptions& options) {
+  const ShootOptions& shoot = options.shoot;
+  const bool counts = CountsPatches(shoot);
+  std::vector<Need> needs = {PyramidNeed(shoot.method)};
+  if (UsesPyramids(shoot.method)) needs.push_back(DimDensityNeed(patches, shoot));
+  if (counts) needs.push_back(ClusterNeed(patches));
+  if (shoot.method == Method::kPhsAlpha) needs.push_back(AlphaNeed(patches));
+  if (shoot.method == Method::kPhsHier) needs.push_back(HierarchyNeed(patches));
+  if (shoot.method == Method::kExact) {
+    needs.push_back(ClearPairsNeed());
+  } else {
+    needs.push_back(AmbientNeed(patches));
+  }
+  if (CountBlack(patches) > 0) needs.push_back(BlackNeed(patches, counts));
+  return needs;
+}
+
+}  // namespace lambert
