@@ -11,6 +11,7 @@ namespace lambert {
 
 using Float8 = float __attribute__((vector_size(32)));
 using Double4 = double __attribute__((vector_size(32)));
+using Long2 = int64_t __attribute__((vector_size(16)));
 using Long4 = int64_t __attribute__((vector_size(32)));
 using Int8 = int32_t __attribute__((vector_size(32)));
 using Uint8 = uint32_t __attribute__((vector_size(32)));

@@ -5,6 +5,15 @@
 
 namespace lambert {
 
+Deposit Arrivals::TakeFrom(PatchIndex patch) {
+  if (gray_cells_.empty()) {
+    const Long4 cell = std::exchange(cells_[patch], Long4{});
+    return {cell[0], cell[1], cell[2], cell[3], patch};
+  }
+  const Long2 cell = std::exchange(gray_cells_[patch], Long2{});
+  return {cell[0], 0, 0, cell[1], patch};
+}
+
 std::vector<Deposit> Arrivals::Take() {
   std::vector<Deposit> deposits;
   deposits.reserve(hit_count_);
@@ -15,10 +24,7 @@ std::vector<Deposit> Arrivals::Take() {
         Prefetch(static_cast<PatchIndex>(64 * word) + std::countr_zero(bits));
       }
       for (uint64_t bits = std::exchange(hit_[word], 0); bits != 0; bits &= bits - 1) {
-        const PatchIndex patch = static_cast<PatchIndex>(64 * word) + std::countr_zero(bits);
-        Long4& cell = cells_[patch];
-        deposits.push_back({cell[0], cell[1], cell[2], cell[3], patch});
-        cell = Long4{};
+        deposits.push_back(TakeFrom(static_cast<PatchIndex>(64 * word) + std::countr_zero(bits)));
       }
     }
   }
@@ -35,7 +41,7 @@ std::unique_ptr<Arrivals> ArrivalsPool::Borrow() {
       return arrivals;
     }
   }
-  return std::make_unique<Arrivals>(patch_count_);
+  return std::make_unique<Arrivals>(patch_count_, channels_);
 }
 
 void ArrivalsPool::Return(std::unique_ptr<Arrivals> arrivals) {

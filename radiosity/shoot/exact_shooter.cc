@@ -31,6 +31,13 @@ Flux Channel(const std::vector<Rgb>& values, int channel) {
   return flux;
 }
 
+void KeepFirstChannel(UnitResult& result) {
+  for (Deposit& d : result.deposits) d.g = d.b = 0;
+  result.shot = {result.shot[0], 0, 0};
+  result.escaped = {result.escaped[0], 0, 0};
+  result.channels = kGrayChannels;
+}
+
 class ExactShooter : public Shooter {
  public:
   ExactShooter(std::shared_ptr<const PatchSet> patches, std::unique_ptr<RayScene> scene)
@@ -63,7 +70,9 @@ absl::StatusOr<std::array<Flux, 3>> ExactShooter::Emitted(const WorkUnit& unit) 
       return BadUnit("the visit of emitter " + std::to_string(visit.emitter) +
                      " is out of range or not whole");
     }
-    for (int c = 0; c < 3; ++c) emitted[c][visit.emitter] += static_cast<double>(visit.quanta[c]);
+    for (int c = 0; c < 3; ++c) {
+      emitted[c][visit.emitter] += static_cast<double>(visit.quanta[c % unit.channels]);
+    }
   }
   return emitted;
 }
@@ -117,6 +126,7 @@ absl::StatusOr<UnitResult> ExactShooter::Run(const WorkUnit& unit) const {
     if (!(sum < kMostQuanta)) return SingularBalance();
   }
   UnitResult result = Deposits(arrived, *emitted);
+  if (unit.channels == kGrayChannels) KeepFirstChannel(result);
   result.rays = unit.RayCount();
   result.cpu_seconds = ThreadCpuSeconds() - start;
   return result;

@@ -18,7 +18,7 @@ namespace lambert {
 namespace {
 
 // Changes whenever the same unit would give other bytes.
-constexpr char kCodeVersion[] = "shoot-5";
+constexpr char kCodeVersion[] = "shoot-6";
 
 class EmbreeShooter : public Shooter {
  public:
@@ -26,19 +26,21 @@ class EmbreeShooter : public Shooter {
                 std::unique_ptr<RayScene> scene, std::unique_ptr<Launcher> launcher)
       : patches_(std::move(patches)),
         watch_(options.method == Method::kPhsAlpha),
+        channels_(options.parts.without.Has(Part::kColor) ? kGrayChannels : kColorChannels),
         scene_(std::move(scene)),
         launcher_(std::move(launcher)),
         refinement_(options.method == Method::kPhsHier
                         ? std::make_unique<const Refinement>(*patches_, *scene_, options.pyramids)
                         : nullptr),
-        arrivals_(patches_->size()),
-        rests_(refinement_ != nullptr ? refinement_->place_count() : 0) {}
+        arrivals_(patches_->size(), channels_),
+        rests_(refinement_ != nullptr ? refinement_->place_count() : 0, channels_) {}
 
   absl::StatusOr<UnitResult> Run(const WorkUnit& unit) const override;
 
  private:
   std::shared_ptr<const PatchSet> patches_;
-  const bool watch_;  // what rays see is part of the result
+  const bool watch_;    // what rays see is part of the result
+  const int channels_;  // of its units
   std::unique_ptr<RayScene> scene_;
   std::unique_ptr<Launcher> launcher_;
   const std::unique_ptr<const Refinement> refinement_;  // null: rays rest where they arrive
@@ -48,7 +50,13 @@ class EmbreeShooter : public Shooter {
 absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
   const DenormalsFlushed flushed;
   const double start = ThreadCpuSeconds();
+  if (unit.channels != channels_) {
+    return MakeError(absl::StatusCode::kInvalidArgument,
+                     {"FIELD_INVALID", "work unit", "its channels are not those of its job",
+                      "use programs of one version"});
+  }
   UnitResult result;
+  result.channels = channels_;
   std::unique_ptr<Arrivals> arrivals = arrivals_.Borrow();
   auto flight = std::make_unique<Flight>(*scene_, *arrivals, result, watch_);
   std::unique_ptr<Arrivals> rests;

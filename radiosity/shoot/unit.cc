@@ -8,8 +8,8 @@
 namespace lambert {
 namespace {
 
-constexpr uint32_t kUnitMagic = 0x3355574C;    // "LWU3"
-constexpr uint32_t kResultMagic = 0x3352554C;  // "LUR3"
+constexpr uint32_t kUnitMagic = 0x3455574C;    // "LWU4"
+constexpr uint32_t kResultMagic = 0x3452554C;  // "LUR4"
 
 struct UnitHeader {
   uint32_t magic = kUnitMagic;
@@ -17,15 +17,16 @@ struct UnitHeader {
   uint64_t seed = 0;
   uint32_t pass = 0, step = 0;
   double rays_per_m2 = 0;
+  uint32_t channels = 0, reserved = 0;
 };
+static_assert(sizeof(UnitHeader) == 40);
 
 struct VisitBytes {
   int32_t emitter;
   uint32_t ray_count, ray_begin, ray_end;
-  int64_t quanta[3];
-  uint32_t seen, reserved;  // counts that follow
+  uint32_t seen, reserved;  // quanta follow, and so many counts
 };
-static_assert(sizeof(VisitBytes) == 48);
+static_assert(sizeof(VisitBytes) == 24);
 constexpr uint32_t kMaxSeen = 65536;
 
 struct ResultHeader {
@@ -34,14 +35,20 @@ struct ResultHeader {
   int64_t shot[3], escaped[3];
   int64_t rays = 0;
   uint64_t rests = 0, sightings = 0;
+  uint32_t channels = 0, reserved = 0;
 };
-static_assert(sizeof(ResultHeader) == 80);
+static_assert(sizeof(ResultHeader) == 88);
 
+template <int kChannels>
 struct DepositBytes {
   uint32_t patch, hits;
-  int64_t quanta[3];
+  int64_t quanta[kChannels];
 };
-static_assert(sizeof(DepositBytes) == 32);
+static_assert(sizeof(DepositBytes<kColorChannels>) == 32);
+static_assert(sizeof(DepositBytes<kGrayChannels>) == 16);
+
+uint64_t QuantaBytes(uint32_t channels) { return channels * sizeof(int64_t); }
+bool IsChannelCount(uint32_t n) { return n == kGrayChannels || n == kColorChannels; }
 static_assert(sizeof(Sighting) == 16);
 
 absl::Status Corrupt(const std::string& what, const std::string& why) {
@@ -72,25 +79,36 @@ std::vector<Deposit> Merge(const std::vector<Deposit>& a, const std::vector<Depo
   return merged;
 }
 
+template <int kChannels>
 void Write(const std::vector<Deposit>& deposits, ByteWriter& writer) {
   for (const Deposit& d : deposits) {
-    writer.Put(DepositBytes{
-        static_cast<uint32_t>(d.patch), static_cast<uint32_t>(d.hits), {d.r, d.g, d.b}});
+    DepositBytes<kChannels> bytes{
+        static_cast<uint32_t>(d.patch), static_cast<uint32_t>(d.hits), {d.r}};
+    if constexpr (kChannels == kColorChannels) {
+      bytes.quanta[1] = d.g;
+      bytes.quanta[2] = d.b;
+    }
+    writer.Put(bytes);
   }
 }
 
 // False where they are out of order or not of places 0 .. place_count - 1. Requires: the bytes are
 // there.
+template <int kChannels>
 bool Read(ByteReader& reader, uint64_t count, int64_t place_count, std::vector<Deposit>& deposits) {
   deposits.reserve(count);
   int64_t previous = -1;
   for (uint64_t k = 0; k < count; ++k) {
-    DepositBytes d;
+    DepositBytes<kChannels> d;
     reader.Get(&d);
     if (d.patch <= previous || d.patch >= place_count || d.hits == 0) return false;
     previous = d.patch;
-    deposits.push_back(
-        {d.quanta[0], d.quanta[1], d.quanta[2], d.hits, static_cast<PatchIndex>(d.patch)});
+    Deposit& read = deposits.emplace_back();
+    read = {d.quanta[0], 0, 0, d.hits, static_cast<PatchIndex>(d.patch)};
+    if constexpr (kChannels == kColorChannels) {
+      read.g = d.quanta[1];
+      read.b = d.quanta[2];
+    }
   }
   return true;
 }
@@ -152,11 +170,25 @@ void MergeResult(const UnitResult& from, UnitResult& into) {
   Add(from.shot, into.shot);
   Add(from.escaped, into.escaped);
   into.rays += from.rays;
+  into.channels = from.channels;
   into.cpu_seconds += from.cpu_seconds;
+}
+
+void SpreadGray(UnitResult& result) {
+  for (std::vector<Deposit>* deposits : {&result.deposits, &result.rests}) {
+    for (Deposit& d : *deposits) d.g = d.b = d.r;
+  }
+  result.shot.fill(result.shot[0]);
+  result.escaped.fill(result.escaped[0]);
+  result.channels = kColorChannels;
 }
 
 absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result) {
   const int64_t rays = unit.RayCount();
+  if (result.channels != unit.channels) {
+    return Corrupt("unit result", "it has " + std::to_string(result.channels) + " channels of " +
+                                      std::to_string(unit.channels));
+  }
   if (result.rays != rays) {
     return Corrupt("unit result", "it reports " + std::to_string(result.rays) + " rays of " +
                                       std::to_string(rays));
@@ -195,15 +227,12 @@ std::string EncodeUnit(const WorkUnit& unit) {
   header.pass = unit.pass;
   header.step = unit.step;
   header.rays_per_m2 = unit.rays_per_m2;
+  header.channels = static_cast<uint32_t>(unit.channels);
   writer.Put(header);
   for (const Visit& v : unit.visits) {
-    writer.Put(VisitBytes{v.emitter,
-                          v.ray_count,
-                          v.ray_begin,
-                          v.ray_end,
-                          {v.quanta[0], v.quanta[1], v.quanta[2]},
-                          static_cast<uint32_t>(v.seen.size()),
-                          0});
+    writer.Put(VisitBytes{v.emitter, v.ray_count, v.ray_begin, v.ray_end,
+                          static_cast<uint32_t>(v.seen.size()), 0});
+    writer.PutArray(v.quanta.data(), unit.channels);
     writer.PutArray(v.seen.data(), v.seen.size());
   }
   return writer.Take();
@@ -212,26 +241,26 @@ std::string EncodeUnit(const WorkUnit& unit) {
 absl::StatusOr<WorkUnit> DecodeUnit(const std::string& bytes) {
   ByteReader reader(bytes);
   UnitHeader header;
-  if (!reader.Get(&header) || header.magic != kUnitMagic ||
-      header.visits > reader.remaining() / sizeof(VisitBytes)) {
+  if (!reader.Get(&header) || header.magic != kUnitMagic || !IsChannelCount(header.channels) ||
+      header.reserved != 0 ||
+      header.visits > reader.remaining() / (sizeof(VisitBytes) + QuantaBytes(header.channels))) {
     return Corrupt("work unit", "the bytes are not a work unit");
   }
-  WorkUnit unit{header.seed, header.pass, header.step, {}, header.rays_per_m2};
+  WorkUnit unit{header.seed, header.pass,        header.step,
+                {},          header.rays_per_m2, static_cast<int>(header.channels)};
   unit.visits.reserve(header.visits);
   for (uint32_t k = 0; k < header.visits; ++k) {
     VisitBytes v;
+    Quanta quanta{};
     if (!reader.Get(&v) || v.reserved != 0 || v.seen > kMaxSeen ||
+        !reader.GetArray(quanta.data(), unit.channels) ||
         v.seen > reader.remaining() / sizeof(uint32_t)) {
       return Corrupt("work unit", "the bytes are not a work unit");
     }
     std::vector<uint32_t> seen(v.seen);
     reader.GetArray(seen.data(), seen.size());
-    unit.visits.push_back({v.emitter,
-                           v.ray_count,
-                           v.ray_begin,
-                           v.ray_end,
-                           {v.quanta[0], v.quanta[1], v.quanta[2]},
-                           std::move(seen)});
+    unit.visits.push_back(
+        {v.emitter, v.ray_count, v.ray_begin, v.ray_end, quanta, std::move(seen)});
   }
   if (!reader.Complete()) return Corrupt("work unit", "the bytes are not a work unit");
   return unit;
@@ -246,9 +275,15 @@ std::string EncodeUnitResult(const UnitResult& result) {
   header.rays = result.rays;
   header.rests = result.rests.size();
   header.sightings = result.sightings.size();
+  header.channels = static_cast<uint32_t>(result.channels);
   writer.Put(header);
-  Write(result.deposits, writer);
-  Write(result.rests, writer);
+  for (const std::vector<Deposit>* deposits : {&result.deposits, &result.rests}) {
+    if (result.channels == kGrayChannels) {
+      Write<kGrayChannels>(*deposits, writer);
+    } else {
+      Write<kColorChannels>(*deposits, writer);
+    }
+  }
   writer.PutArray(result.sightings.data(), result.sightings.size());
   return writer.Take();
 }
@@ -256,20 +291,28 @@ std::string EncodeUnitResult(const UnitResult& result) {
 absl::StatusOr<UnitResult> DecodeUnitResult(const std::string& bytes, PatchIndex patch_count) {
   ByteReader reader(bytes);
   ResultHeader header;
-  if (!reader.Get(&header) || header.magic != kResultMagic ||
-      header.rests > reader.remaining() / sizeof(DepositBytes) ||
+  if (!reader.Get(&header) || header.magic != kResultMagic || !IsChannelCount(header.channels) ||
+      header.reserved != 0) {
+    return Corrupt("unit result", "the bytes are not a unit's result");
+  }
+  const bool gray = header.channels == kGrayChannels;
+  const uint64_t deposit_bytes =
+      gray ? sizeof(DepositBytes<kGrayChannels>) : sizeof(DepositBytes<kColorChannels>);
+  if (header.rests > reader.remaining() / deposit_bytes ||
       header.sightings > reader.remaining() / sizeof(Sighting) ||
-      reader.remaining() != (header.entries + header.rests) * sizeof(DepositBytes) +
-                                header.sightings * sizeof(Sighting)) {
+      reader.remaining() !=
+          (header.entries + header.rests) * deposit_bytes + header.sightings * sizeof(Sighting)) {
     return Corrupt("unit result", "the bytes are not a unit's result");
   }
   UnitResult result;
   std::copy(std::begin(header.shot), std::end(header.shot), result.shot.begin());
   std::copy(std::begin(header.escaped), std::end(header.escaped), result.escaped.begin());
   result.rays = header.rays;
+  result.channels = static_cast<int>(header.channels);
   // A tree over N patches has fewer than N elements.
-  if (!Read(reader, header.entries, patch_count, result.deposits) ||
-      !Read(reader, header.rests, 2 * int64_t{patch_count}, result.rests)) {
+  const auto read = gray ? Read<kGrayChannels> : Read<kColorChannels>;
+  if (!read(reader, header.entries, patch_count, result.deposits) ||
+      !read(reader, header.rests, 2 * int64_t{patch_count}, result.rests)) {
     return Corrupt("unit result", "its patches are out of order or out of range");
   }
   result.sightings.resize(header.sightings);

@@ -14,7 +14,10 @@
 
 namespace lambert {
 
-using Quanta = std::array<int64_t, 3>;  // r, g, b
+using Quanta = std::array<int64_t, 3>;  // r, g, b; of gray light r, 0, 0
+
+// Channels that travel: of gray light r stands for all three.
+inline constexpr int kColorChannels = 3, kGrayChannels = 1;
 
 // All visits of a step shoot at most 2^kMaxQuantaBits quanta a channel. A ray may carry 404 times
 // what its patch shoots: 101 where its pyramid has the least density (density.h), times 4 for the
@@ -40,6 +43,7 @@ struct WorkUnit {
   std::vector<Visit> visits;
   // Rays that the step shoots over the area that may shoot (method phs-hier).
   double rays_per_m2 = 0;
+  int channels = kColorChannels;
   bool operator==(const WorkUnit&) const = default;
 
   int64_t RayCount() const;
@@ -77,15 +81,20 @@ struct UnitResult {
   Quanta shot{};     // = sum of deposits + escaped, each channel
   Quanta escaped{};  // left the scene
   int64_t rays = 0;
-  double cpu_seconds = 0;  // of the thread that ran it; not part of the canonical bytes
+  int channels = kColorChannels;  // of the unit
+  double cpu_seconds = 0;         // of the thread that ran it; not part of the canonical bytes
   bool operator==(const UnitResult&) const = default;
 };
 
-// Adds `from` to `into`.
+// Adds `from` to `into`, which is empty or of as many channels.
 void MergeResult(const UnitResult& from, UnitResult& into);
 
-// OK if shot = deposited + escaped in each channel, all deposits or none came to rest, and rays =
-// hits + misses is possible for `unit`; else DATA_LOSS (reason RESULT_INVALID) with both numbers.
+// Gives all three channels what the first has.
+void SpreadGray(UnitResult& result);
+
+// OK if the result is of the unit's channels, shot = deposited + escaped in each, all deposits or
+// none came to rest, and rays = hits + misses is possible for `unit`; else DATA_LOSS (reason
+// RESULT_INVALID) with both numbers.
 absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result);
 
 // Canonical bytes (docs/formats.md): a unit's result has the same bytes wherever it was computed,

@@ -98,10 +98,11 @@ std::vector<WorkUnit> CutIntoUnits(const StepPlan& plan, uint64_t seed, uint32_t
   for (const Visit& visit : plan.visits) {
     for (uint32_t begin = 0; begin < visit.ray_count;) {
       if (room == 0) {
-        units.push_back({seed, pass, step, {}, plan.rays_per_m2});
+        units.push_back({seed, pass, step, {}, plan.rays_per_m2, plan.channels});
         room = unit_rays;
       }
       Visit part = visit;
+      if (plan.channels == kGrayChannels) part.quanta = {part.quanta[0], 0, 0};
       part.ray_begin = begin;
       part.ray_end = static_cast<uint32_t>(std::min<int64_t>(visit.ray_count, begin + room));
       units.back().visits.push_back(part);

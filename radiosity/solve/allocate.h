@@ -23,6 +23,8 @@ struct StepPlan {
   Rgb quantum_lm;             // a power of two, or 0 for a channel without flux
   int64_t rays = 0;
   double rays_per_m2 = 0;  // WorkUnit's, for methods that want it
+  // Of its units. Gray: the visits' channels are alike, and the first travels.
+  int channels = kColorChannels;
 };
 
 // Emitter i expects e_i = weight_i flux_i / flux_per_ray rays (flux: the sum of its channels;

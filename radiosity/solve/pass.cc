@@ -80,6 +80,7 @@ StepPlan Pass::PlanStep(double flux_per_ray_lm, const std::vector<UnsentFlux>& u
                             static_cast<uint32_t>(number_)};
   const double offset = RandomNumbers(stream, 0, RandomPurpose::kPatchOffset)[0];
   StepPlan plan = AllocateRays(unsent, flux_per_ray_lm, offset, setting_.weights);
+  plan.channels = Channels();
   if (setting_.options.shoot.method == Method::kPhsAlpha) {
     for (Visit& visit : plan.visits) {
       visit.seen =
@@ -103,6 +104,7 @@ absl::StatusOr<UnitResult> Pass::Execute(StepExecutor& executor, const StepPlan&
                                       static_cast<uint32_t>(steps_), unit_rays));
     if (!ran.ok()) return ran.status();
     result = *std::move(ran);
+    if (plan.channels == kGrayChannels) SpreadGray(result);
   }
   setting_.sightings.Add(result.sightings);
   rays_ += result.rays;
@@ -115,7 +117,8 @@ absl::StatusOr<UnitResult> Pass::Execute(StepExecutor& executor, const StepPlan&
 }
 
 absl::StatusOr<bool> Pass::SolveWhole(StepExecutor& executor) {
-  const StepPlan plan = PlanWholePass(ledger_.unsent(), setting_.patches, wanted_rays_);
+  StepPlan plan = PlanWholePass(ledger_.unsent(), setting_.patches, wanted_rays_);
+  plan.channels = Channels();
   const absl::StatusOr<UnitResult> result = Execute(executor, plan, plan.rays);
   if (!result.ok()) return result.status();
   ledger_.BookSolution(plan, *result);

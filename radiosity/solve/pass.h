@@ -47,6 +47,9 @@ class Pass {
   double rays_per_first_ray() const;
 
  private:
+  int Channels() const {
+    return setting_.options.shoot.parts.without.Has(Part::kColor) ? kGrayChannels : kColorChannels;
+  }
   StepPlan PlanStep(double flux_per_ray_lm, const std::vector<UnsentFlux>& unsent) const;
   absl::StatusOr<UnitResult> Execute(StepExecutor& executor, const StepPlan& plan,
                                      int64_t unit_rays);

@@ -34,6 +34,16 @@ TEST(Arrivals, ListTheSumsOfThePatchesThatWereHitInOrder) {
   for (int rays : {0, 1, 30, 124, 126, 1000, 20000}) ExpectSums(1000, rays, arrivals);
 }
 
+TEST(Arrivals, OfGrayLightKeepTheFirstChannelAndTheHits) {
+  Arrivals arrivals(300, kGrayChannels);
+  arrivals.Prefetch(299);
+  arrivals.Add(299, 7, 0, 0);
+  arrivals.Add(2, 1, 0, 0);
+  arrivals.Add(299, 8, 0, 0);
+  EXPECT_EQ(arrivals.Take(), (std::vector<Deposit>{{1, 0, 0, 1, 2}, {15, 0, 0, 2, 299}}));
+  EXPECT_TRUE(arrivals.Take().empty());
+}
+
 TEST(Arrivals, AreEmptyAfterTheyWereTaken) {
   Arrivals arrivals(16);
   arrivals.Add(5, 1, 2, 3);
@@ -51,7 +61,7 @@ TEST(Arrivals, OfARayWithoutFluxCountAsAHit) {
 }
 
 TEST(ArrivalsPool, LendsWhatWasReturnedAndNeverTheSameTwiceAtOnce) {
-  ArrivalsPool pool(10);
+  ArrivalsPool pool(10, kColorChannels);
   std::unique_ptr<Arrivals> a = pool.Borrow(), b = pool.Borrow();
   EXPECT_NE(a, b);
   const std::set<Arrivals*> made = {a.get(), b.get()};
@@ -63,7 +73,7 @@ TEST(ArrivalsPool, LendsWhatWasReturnedAndNeverTheSameTwiceAtOnce) {
 }
 
 TEST(ArrivalsPool, ServesThreadsAtOnce) {
-  ArrivalsPool pool(100);
+  ArrivalsPool pool(100, kColorChannels);
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([&pool] {

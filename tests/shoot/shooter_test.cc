@@ -204,6 +204,25 @@ TEST(Shooter, RefusesUnitsThatNameWhatDoesNotExist) {
   }
 }
 
+TEST(Shooter, OfAGrayJobTakesUnitsOfOneChannelAndReturnsTheFirstOfThree) {
+  for (ShootOptions options : AllOptions()) {
+    WorkUnit unit = WholeUnit();
+    const UnitResult color = *Make(options)->Run(unit);
+    options.parts.without.Add(Part::kColor);
+    const auto gray_shooter = Make(options);
+    EXPECT_EQ(gray_shooter->Run(unit).status().code(), absl::StatusCode::kInvalidArgument);
+    unit.channels = kGrayChannels;
+    for (Visit& visit : unit.visits) visit.quanta = {visit.quanta[0], 0, 0};
+    EXPECT_EQ(Make(AllOptions().front())->Run(unit).status().code(),
+              absl::StatusCode::kInvalidArgument);
+    UnitResult gray = *gray_shooter->Run(unit), expected = color;
+    SpreadGray(gray);
+    SpreadGray(expected);
+    gray.cpu_seconds = expected.cpu_seconds = 0;
+    EXPECT_EQ(gray, expected);
+  }
+}
+
 TEST(Shooter, IsNotMadeFromInvalidOptions) {
   ShootOptions options;
   options.pyramids.split = 5;

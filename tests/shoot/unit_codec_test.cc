@@ -34,6 +34,34 @@ UnitResult MakeResult() {
   return result;
 }
 
+TEST(UnitCodec, OfGrayLightOneChannelTravels) {
+  const UnitResult color = MakeResult();
+  UnitResult gray = color;
+  gray.channels = kGrayChannels;
+  for (std::vector<Deposit>* deposits : {&gray.deposits, &gray.rests}) {
+    for (Deposit& d : *deposits) d.g = d.b = 0;
+  }
+  const std::string bytes = EncodeUnitResult(gray);
+  EXPECT_EQ(bytes.size() + 16 * (gray.deposits.size() + gray.rests.size()),
+            EncodeUnitResult(color).size());
+  const absl::StatusOr<UnitResult> read = DecodeUnitResult(bytes, kPatches);
+  ASSERT_TRUE(read.ok()) << read.status();
+  EXPECT_EQ(*read, gray);
+  SpreadGray(gray);
+  EXPECT_EQ(gray.channels, kColorChannels);
+  EXPECT_EQ(gray.deposits[1], (Deposit{4, 4, 4, 5, 4}));
+  EXPECT_EQ(gray.rests[0], (Deposit{5, 5, 5, 2, 3}));
+  EXPECT_EQ(gray.shot, (Quanta{1000, 1000, 1000}));
+  EXPECT_EQ(gray.escaped, (Quanta{1, 1, 1}));
+
+  const WorkUnit unit{1, 2, 3, {{4, 10, 0, 10, {99, 0, 0}}}, 0, kGrayChannels};
+  WorkUnit in_color = unit;
+  in_color.channels = kColorChannels;
+  EXPECT_EQ(EncodeUnit(unit).size() + 16, EncodeUnit(in_color).size());
+  ASSERT_TRUE(DecodeUnit(EncodeUnit(unit)).ok());
+  EXPECT_EQ(*DecodeUnit(EncodeUnit(unit)), unit);
+}
+
 TEST(UnitCodec, RefusesPlacesBeyondThoseOfAnyTree) {
   UnitResult result = MakeResult();
   result.rests[1].patch = 2 * kPatches;
@@ -155,7 +183,7 @@ TEST(UnitCodec, AResultAboutPatchesThatDoNotExistIsRefused) {
 TEST(UnitCodec, PatchesOutOfOrderOrTwiceAreRefused) {
   UnitResult result = MakeResult();
   const std::string bytes = EncodeUnitResult(result);
-  constexpr size_t kHeader = 80, kEntry = 32, kSighting = 16;  // docs/formats.md
+  constexpr size_t kHeader = 88, kEntry = 32, kSighting = 16;  // docs/formats.md
   ASSERT_EQ(bytes.size(), kHeader + (13 + 2) * kEntry + 3 * kSighting);
   std::string twice = bytes, swapped = bytes;
   twice.replace(kHeader + kEntry, kEntry, bytes, kHeader, kEntry);

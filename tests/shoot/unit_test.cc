@@ -102,6 +102,19 @@ void ExpectRefused(const char* what, Forge forge) {
   }
 }
 
+TEST(CheckLedger, TheChannelsAreThoseOfTheUnit) {
+  WorkUnit unit{1, 1, 1, {{0, 2, 0, 2, {6, 0, 0}}}, 0, kGrayChannels};
+  UnitResult result;
+  result.rays = 2;
+  result.shot = {6, 0, 0};
+  result.escaped = {2, 0, 0};
+  result.deposits = {{4, 0, 0, 1, 3}};
+  result.channels = kGrayChannels;
+  EXPECT_TRUE(CheckLedger(unit, result).ok()) << CheckLedger(unit, result);
+  unit.channels = kColorChannels;
+  EXPECT_EQ(GetErrorDetail(CheckLedger(unit, result))->reason, "RESULT_INVALID");
+}
+
 TEST(CheckLedger, WhatComesToRestIsWhatArrived) {
   Booked booked = Balanced();
   Deposit all;
