@@ -13,6 +13,11 @@ constexpr int kGreen = 1;
 
 double Square(double x) { return x * x; }
 
+// Of a patch's radiosity; 0 where it is not known.
+double Variance(const PatchTable& table, PatchIndex i) {
+  return Square(std::max(0.0, table.std_error_lm_per_m2[i][kGreen]));
+}
+
 // Part of all flux that is shot which arrives at each patch.
 std::vector<double> HitShares(const PatchTable& reference) {
   CompensatedSum left, arrived;
@@ -65,7 +70,7 @@ absl::StatusOr<Deviations> DeviationsFrom(const PatchTable& table, const PatchTa
     const PatchIndex r = (*partner)[i];
     deviations.difference[r] = static_cast<float>(table.radiosity_lm_per_m2[i][kGreen] -
                                                   reference.radiosity_lm_per_m2[r][kGreen]);
-    deviations.variance[r] = static_cast<float>(Square(table.std_error_lm_per_m2[i][kGreen]));
+    deviations.variance[r] = static_cast<float>(Variance(table, i));
   }
   return deviations;
 }
@@ -80,7 +85,7 @@ std::optional<Agreement> Agree(const std::vector<const Deviations*>& runs, doubl
     const PatchOverRuns patch = OverRuns(runs, i);
     if (shares[i] * rays < kEnoughHits || !(patch.variance > 0)) continue;
     ++agreement.patches;
-    const double error2 = Square(reference.std_error_lm_per_m2[i][kGreen]);
+    const double error2 = Variance(reference, i);
     agreement.mean_z2 += Square(patch.mean) / (patch.variance / n + error2);
     for (size_t k = 0; k < runs.size() && runs.size() > 1; ++k) {
       z2[k] += Square(runs[k]->difference[i] - patch.mean) / ((1 - 1 / n) * patch.variance);

@@ -12,7 +12,7 @@ Rgb ErrorOfMean(Rgb a, Rgb b) {
   for (int channel = 0; channel < 3; ++channel) {
     mean[channel] = std::hypot(a[channel], b[channel]) / 2;
   }
-  return mean;
+  return a == kUnknownError || b == kUnknownError ? kUnknownError : mean;
 }
 
 // `off` against `reference`: the measures that scale with the error.
@@ -44,6 +44,7 @@ absl::StatusOr<Reference> JoinHalves(const PatchTable& a, const PatchTable& b,
 absl::StatusOr<Reference> JudgeReference(PatchTable table, const std::set<int>& region_nodes) {
   PatchTable off = table;  // every patch by one standard error
   for (PatchIndex i = 0; i < off.size(); ++i) {
+    if (off.std_error_lm_per_m2[i] == kUnknownError) return Reference{std::move(table), {}};
     off.radiosity_lm_per_m2[i] = off.radiosity_lm_per_m2[i] + off.std_error_lm_per_m2[i];
   }
   absl::StatusOr<ErrorMeasures> residual = Residual(off, table, region_nodes);

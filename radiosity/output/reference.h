@@ -21,7 +21,8 @@ absl::StatusOr<Reference> JoinHalves(const PatchTable& a, const PatchTable& b,
                                      const std::set<int>& region_nodes);
 
 // A table from a file: the residual is what its own std_error says (0 where it is exact or was not
-// told). Channels are taken as wholly correlated: one ray carries all three.
+// told; none where it is not known). Channels are taken as wholly correlated: one ray carries all
+// three.
 absl::StatusOr<Reference> JudgeReference(PatchTable table, const std::set<int>& region_nodes);
 
 }  // namespace lambert

@@ -129,6 +129,16 @@ Need ClearPairsNeed() {
           "a closed form has nothing that rays could add"};
 }
 
+Need StdErrorNeed(const SolveOptions& options) {
+  Need need{Part::kStdError, "replicates", true,
+            "passes are independent, and their spread is the standard error",
+            "passes of growing size: each is some thirty exchanges with the workers"};
+  if (options.max_rays == 0 || options.max_error > 0) {
+    need.only_way = "a wanted error or a budget of time is judged by it; ask for --max-rays alone";
+  }
+  return need;
+}
+
 }  // namespace
 
 std::vector<Need> FindNeeds(const PatchSet& patches, const SolveOptions& options) {
@@ -144,6 +154,7 @@ std::vector<Need> FindNeeds(const PatchSet& patches, const SolveOptions& options
   } else {
     needs.push_back(AmbientNeed(patches));
   }
+  needs.push_back(StdErrorNeed(options));
   if (CountBlack(patches) > 0) needs.push_back(BlackNeed(patches, counts));
   return needs;
 }

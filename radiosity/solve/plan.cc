@@ -15,6 +15,7 @@ constexpr int64_t kMaxFirstPassRays = 1 << 20;
 constexpr int64_t kAmbientRaysOfPatch = 64;
 constexpr int64_t kMaxExactPassRays = 1 << 25;
 constexpr int64_t kPassesInBudget = 4;  // the first pass takes at most this share of --max-rays
+constexpr int64_t kPilotShare = 32;     // and this one where no standard error is wanted
 
 int64_t WorkerBytes(const PatchSet& patches, const ShootOptions& shoot) {
   // Patch set 200, tracer 60 + 119 at the peak of its build, frames 36, one unit's deposits 32.
@@ -98,6 +99,9 @@ int64_t FirstPassRays(const PatchSet& patches, const SolveOptions& planned) {
     rays = std::clamp(kAmbientRaysOfPatch * n, kMinFirstPassRays, kMaxExactPassRays);
   }
   if (planned.max_rays == 0) return rays;
+  // One pass that tells how many rays a pass takes, and one with all the others.
+  const bool twice = planned.shoot.parts.without.Has(Part::kStdError);
+  if (twice) return std::max<int64_t>(1, planned.max_rays / kPilotShare);
   const int64_t share = planned.max_rays / kPassesInBudget;
   // mcr shares its budget out evenly.
   const bool even = planned.shoot.method == Method::kMcr;

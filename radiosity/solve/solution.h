@@ -18,10 +18,13 @@ struct Ledger {
   Rgb residual;  // rounding and roulette: mean zero
 };
 
+// A standard error that is not known: no replicates were made (Part::kStdError).
+inline constexpr Rgb kUnknownError{-1, -1, -1};
+
 struct Solution {
   std::vector<Rgb> radiosity_lm_per_m2;  // all that leaves, emitted and reflected
   std::vector<Rgb> irradiance_lx;        // all that arrives
-  std::vector<Rgb> std_error_lm_per_m2;  // standard error of the radiosity, from replicates
+  std::vector<Rgb> std_error_lm_per_m2;  // of the radiosity, from replicates, or kUnknownError
   std::vector<int64_t> hits;             // rays that arrived, over all passes
   Ledger ledger;
 };

@@ -76,6 +76,7 @@ struct Solver::State {
   absl::Status RunOnePass(StepExecutor& executor,
                           const std::function<void(const Progress&)>& on_step);
   void KeepPass(const Pass& pass);
+  bool KnowsError() const { return !options.shoot.parts.without.Has(Part::kStdError); }
   bool TimeIsOut() const { return options.max_time_s > 0 && Seconds() >= options.max_time_s; }
   // Fills `weights` and `light_groups`, once.
   absl::Status Prepare();
@@ -183,6 +184,7 @@ void Solver::State::KeepPass(const Pass& pass) {
 }
 
 void Solver::State::EstimateError() {
+  if (!KnowsError()) return;
   estimated_rms_area = replicates.EstimatedRmsArea();
   estimated_rms_patch = replicates.EstimatedRmsPatch();
 }
@@ -201,6 +203,7 @@ void Solver::State::DecideNext() {
   double next = static_cast<double>(at.pass_rays);
   // mcr repeats itself; the others grow.
   if (at.next_pass >= kFirstPasses && options.shoot.method != Method::kMcr) next *= kPassGrowth;
+  if (!KnowsError()) next = static_cast<double>(options.max_rays);  // the pilot is over
   if (options.max_error > 0 && believable) {
     // Error falls like one over the root of the rays: do not shoot far past what is wanted.
     const double ratio = estimated / options.max_error;
@@ -255,7 +258,12 @@ Snapshot Solver::MakeSnapshot() const {
   Snapshot snapshot;
   snapshot.version = state_->at.version;
   snapshot.progress = state_->CurrentProgress();
-  snapshot.solution = std::make_shared<const Solution>(state_->replicates.Mean());
+  Solution solution = state_->replicates.Mean();
+  if (!state_->KnowsError()) {
+    std::fill(solution.std_error_lm_per_m2.begin(), solution.std_error_lm_per_m2.end(),
+              kUnknownError);
+  }
+  snapshot.solution = std::make_shared<const Solution>(std::move(solution));
   return snapshot;
 }
 

@@ -79,6 +79,15 @@ TEST(Agreement, ZIsTheMeanOverItsOwnErrorAndThatOfTheReference) {
   EXPECT_FALSE(Agree({&a}, 1e9, reference)->null_z2) << "one run has no others";
 }
 
+TEST(Agreement, AnErrorThatIsNotKnownIsNone) {
+  PatchTable run = EvenTable(2, 0.1);
+  run.std_error_lm_per_m2[1] = kUnknownError;
+  const auto deviations = DeviationsFrom(run, EvenTable(2, 0));
+  ASSERT_TRUE(deviations.ok());
+  EXPECT_GT(deviations->variance[0], 0);
+  EXPECT_EQ(deviations->variance[1], 0);
+}
+
 TEST(Agreement, NullIsThatOfRunsWithoutBias) {
   const PatchTable reference = EvenTable(200, 0);
   const Agreement fair = AgreementOf(RunsWith(32, 200, 0.1, 0, 0), reference);

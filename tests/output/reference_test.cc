@@ -53,5 +53,14 @@ TEST(JudgeReference, TheStandardErrorsOfATableAreItsResidual) {
   EXPECT_DOUBLE_EQ(*JudgeReference(TableOf(4, 4, 0), {})->residual.rms_area, 0);
 }
 
+TEST(JudgeReference, StandardErrorsThatAreNotKnownAreNoResidual) {
+  PatchTable table = TableOf(4, 4, 1);
+  table.std_error_lm_per_m2[1] = kUnknownError;
+  EXPECT_FALSE(JudgeReference(table, {})->residual.rms_area);
+  const auto joined = JoinHalves(TableOf(4, 4, 1), table, {});
+  EXPECT_EQ(joined->table.std_error_lm_per_m2[1], kUnknownError);
+  EXPECT_GT(joined->table.std_error_lm_per_m2[0].r, 0);
+}
+
 }  // namespace
 }  // namespace lambert

@@ -81,6 +81,36 @@ TEST(PartHierarchy, OfSurfacesOfOnePatchIsNothing) {
   EXPECT_TRUE(Bytes(patches, With(options, Part::kHierarchy)) == Bytes(patches, options));
 }
 
+TEST(PartStdError, WithoutItABudgetIsOnePassAfterAPilotAndNoErrorIsTold) {
+  const SharedPatches room = GrayRoom();
+  for (Method method : {Method::kMcr, Method::kPmcr, Method::kPhs}) {
+    const SolveOptions options = Without(Budget(method, 200'000), Part::kStdError);
+    EXPECT_TRUE(ValidateFor(*room, options).ok());
+    SolverRun run(room, options);
+    ASSERT_TRUE(run.ToTheEnd().ok());
+    const Snapshot snapshot = run.solver.MakeSnapshot();
+    EXPECT_EQ(snapshot.progress.pass, 2) << MethodName(method);
+    EXPECT_NEAR(static_cast<double>(snapshot.progress.rays), 200'000, 8'000) << MethodName(method);
+    EXPECT_EQ(run.solver.stop_reason(), StopReason::kRaysSpent);
+    EXPECT_EQ(snapshot.progress.estimated_rms_area, -1);
+    for (const Rgb& error : snapshot.solution->std_error_lm_per_m2) {
+      EXPECT_EQ(error, kUnknownError);
+    }
+  }
+}
+
+TEST(PartStdError, IsNeededWhereAWantedErrorOrABudgetOfTimeIsJudgedByIt) {
+  const SharedPatches room = GrayRoom();
+  SolveOptions error = Budget(Method::kPmcr, 1000), time = error;
+  error.max_error = 0.1;
+  time.max_rays = 0;
+  time.max_time_s = 1;
+  for (const SolveOptions& options : {SolveOptions{}, error, time}) {
+    const absl::Status refused = ValidateFor(*room, Without(options, Part::kStdError));
+    EXPECT_NE(refused.message().find("--without std-error"), std::string::npos) << refused;
+  }
+}
+
 // Irradiance of all patches and of the black ones, over 8 seeds.
 struct Estimates {
   double mean[2] = {}, squared_error[2] = {};
@@ -137,6 +167,7 @@ INSTANTIATE_TEST_SUITE_P(Parts, RaysElsewhere,
                                          PartCase{Part::kBlack, Method::kPhs},
                                          PartCase{Part::kAlpha, Method::kPhsAlpha},
                                          PartCase{Part::kHierarchy, Method::kPhsHier},
+                                         PartCase{Part::kStdError, Method::kPmcr},
                                          PartCase{Part::kAmbient, Method::kPmcr}));
 
 }  // namespace
