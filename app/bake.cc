@@ -195,7 +195,10 @@ absl::StatusOr<ExitCode> Bake::Finish(const client::Job& job) {
   record->convergence = rows_;
   record->timings_s = timings_s_;
   CountWorkers(*record);
-  if (absl::Status status = WriteOutputs(options_.out_folder, *record); !status.ok()) return status;
+  if (absl::Status status = WriteOutputs(options_.out_folder, *record, options_.outputs);
+      !status.ok()) {
+    return status;
+  }
   PrintSummary(job, *record, options_.out_folder, options_.json);
   return ExitCodeOf(job);
 }

@@ -95,7 +95,7 @@ void Parser::AddBaking() {
       Add(Command::kPlan, "plan", "say what would be done and left out; solve nothing");
   CLI::App& submit = Add(Command::kSubmit, "submit", "start a job on a server, print its name");
   for (CLI::App* command : {&bake, &plan, &submit}) {
-    if (command == &bake) AddOutputOption(*command, draft_);
+    if (command == &bake) AddOutputOptions(*command, draft_);
     AddSolving(*command);
   }
 }
@@ -113,7 +113,7 @@ void Parser::AddSolving(CLI::App& command) {
 
 void Parser::AddBench() {
   CLI::App& bench = Add(Command::kBench, "bench", "error against rays and time, several methods");
-  AddOutputOption(bench, draft_);
+  AddOutputOptions(bench, draft_);
   AddSolving(bench);
   AddBenchOptions(bench, draft_);
 }
@@ -128,7 +128,7 @@ void Parser::AddJobs() {
   }
   CLI::App& jobs = Add(Command::kJobs, "jobs", "list the jobs of a server");
   CLI::App& workers = Add(Command::kWorkers, "workers", "list the workers of a server");
-  AddOutputOption(fetch, draft_);
+  AddOutputOptions(fetch, draft_);
   for (CLI::App* command : {&watch, &fetch, &cancel, &erase, &jobs, &workers}) {
     AddServerOptions(*command, draft_);
     if (command == &fetch) AddMeasureOptions(*command, draft_);

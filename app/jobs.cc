@@ -183,7 +183,10 @@ absl::StatusOr<ExitCode> RunFetch(const Options& options, Interrupt& interrupt) 
   for (const ConvergenceRow& row : record->convergence) {
     if (absl::Status status = log->Append(row); !status.ok()) return status;
   }
-  if (absl::Status status = WriteOutputs(options.out_folder, *record); !status.ok()) return status;
+  if (absl::Status status = WriteOutputs(options.out_folder, *record, options.outputs);
+      !status.ok()) {
+    return status;
+  }
   PrintSummary(job, *record, options.out_folder, options.json);
   return ExitCode::kDone;
 }

@@ -174,10 +174,25 @@ void AddMeasureOptions(CLI::App& command, Draft& draft) {
       ->group(kMeasure);
 }
 
-void AddOutputOption(CLI::App& command, Draft& draft) {
+void AddOutputOptions(CLI::App& command, Draft& draft) {
   command
       .add_option("-o,--out", draft.options.out_folder, "folder for the result; made if need be")
       ->option_text("DIR");
+  OutputFiles& files = draft.options.outputs;
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--outputs",
+          [&files](const std::vector<std::string>& names) {
+            const auto asked = [&names](const char* name) {
+              return std::find(names.begin(), names.end(), name) != names.end();
+            };
+            files = {asked("csv"), asked("glb"), asked("exr"), asked("png"), asked("report")};
+          },
+          "files beside run.json and convergence.csv, by commas (csv,glb,exr,png,report)")
+      ->option_text("LIST")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(OneOf({"csv", "glb", "exr", "png", "report"}));
 }
 
 void AddProgressOption(CLI::App& command, Draft& draft) {
@@ -202,7 +217,7 @@ void AddJsonOption(CLI::App& command, Draft& draft) {
 
 void AddBenchOptions(CLI::App& command, Draft& draft) {
   BenchOptions& bench = draft.options.bench;
-  RemoveOptions(command, {"SCENE", "--method", "--max-error", "--quality"});
+  RemoveOptions(command, {"SCENE", "--outputs", "--method", "--max-error", "--quality"});
   for (const char* budget : {"--max-rays", "--max-time"}) command.get_option(budget)->group(kBench);
   command.add_option("SCENE", bench.scenes, ".glb or .gltf files; several get a folder each")
       ->option_text("(required)")

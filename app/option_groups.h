@@ -22,7 +22,7 @@ void AddMethodOptions(CLI::App& command, Draft& draft);   // --method, --seed, -
 void AddPlaceOptions(CLI::App& command, Draft& draft);    // --workers, --threads
 void AddServerOptions(CLI::App& command, Draft& draft);   // --server, --reconnect
 void AddMeasureOptions(CLI::App& command, Draft& draft);  // --reference, --region
-void AddOutputOption(CLI::App& command, Draft& draft);    // -o
+void AddOutputOptions(CLI::App& command, Draft& draft);   // -o, --outputs
 void AddProgressOption(CLI::App& command, Draft& draft);  // --progress
 void AddJsonOption(CLI::App& command, Draft& draft);      // --json
 

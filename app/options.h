@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "radiosity/output/write_outputs.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/solve/options.h"
 
@@ -50,6 +51,7 @@ struct Options {
   std::string scene_path;         // bake, plan, submit: a .glb or .gltf file
   std::string job;                // watch, fetch, cancel, delete: "solveJobs/ID"
   std::string out_folder;         // bake, fetch, bench
+  OutputFiles outputs;            // bake, fetch
   std::string compare_path;       // compare: the table that is judged
   std::string compare_reference;  // compare: the table that it is judged by
 

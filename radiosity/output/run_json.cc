@@ -79,13 +79,14 @@ Json MeasuresJson(const ErrorMeasures& measures) {
           {"power_bias", value(measures.power_bias)}};
 }
 
-Json PictureJson(const RunRecord& record, const View& view, const Exposure& exposure) {
+Json PictureJson(const RunRecord& record, const PictureFacts& picture) {
+  const View& view = picture.view;
   const Vec3 eye = record.patches->origin + view.eye;
   const Vec3 way = view.forward;
   return {{"view", view.origin},
           {"eye_m", {eye.x, eye.y, eye.z}},
           {"looks_along", {way.x, way.y, way.z}},
-          {"exposure_per_lm_per_m2", exposure.per_lm_per_m2}};
+          {"exposure_per_lm_per_m2", picture.exposure.per_lm_per_m2}};
 }
 
 }  // namespace
@@ -103,7 +104,7 @@ Json PlanItemsJson(const Plan& plan) {
   return items;
 }
 
-std::string EncodeRunJson(const RunRecord& record, const View& view, const Exposure& exposure) {
+std::string EncodeRunJson(const RunRecord& record, const std::optional<PictureFacts>& picture) {
   Json json;
   json["name"] = record.name;
   json["scene_digest"] = record.scene_digest;
@@ -121,7 +122,7 @@ std::string EncodeRunJson(const RunRecord& record, const View& view, const Expos
   if (record.measures.has_value()) json["measures"] = MeasuresJson(*record.measures);
   json["timings_s"] = Json::object();
   for (const auto& [what, seconds] : record.timings_s) json["timings_s"][what] = seconds;
-  json["picture"] = PictureJson(record, view, exposure);
+  json["picture"] = picture ? PictureJson(record, *picture) : Json(nullptr);
   json["warnings"] = Json::array();
   for (const Warning& warning : record.patches->warnings) {
     json["warnings"].push_back({{"reason", warning.reason}, {"message", warning.message}});

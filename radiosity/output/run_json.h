@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "radiosity/output/picture.h"
@@ -12,7 +13,13 @@ namespace lambert {
 // What is done and what is left out, item by item, as run.json and `lambert plan --json` have it.
 nlohmann::ordered_json PlanItemsJson(const Plan& plan);
 
-// JSON text, indented. `view` and `exposure` are those of the pictures.
-std::string EncodeRunJson(const RunRecord& record, const View& view, const Exposure& exposure);
+// How the pictures of a run were taken.
+struct PictureFacts {
+  View view;
+  Exposure exposure;
+};
+
+// JSON text, indented. `picture`: nullopt where none was drawn.
+std::string EncodeRunJson(const RunRecord& record, const std::optional<PictureFacts>& picture);
 
 }  // namespace lambert

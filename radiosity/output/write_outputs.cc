@@ -16,44 +16,51 @@ absl::Status WriteIfOk(const std::string& path, const absl::StatusOr<std::string
   return bytes.ok() ? WriteOutputFile(path, *bytes) : bytes.status();
 }
 
-absl::Status WritePictures(const std::string& stem, const std::string& folder,
-                           const RunRecord& record, const RayScene& scene) {
+// The files that are made of one picture, and run.json, which says how it was taken.
+absl::Status WritePictures(const std::string& folder, const RunRecord& record,
+                           const OutputFiles& files) {
+  const absl::StatusOr<std::unique_ptr<RayScene>> scene = RayScene::Create(*record.patches);
+  if (!scene.ok()) return scene.status();
+  const std::string stem = folder + "/" + record.name;
   const PatchSet& patches = *record.patches;
   const Solution& solution = *record.snapshot.solution;
-  const View view = ChooseView(patches, scene, solution.radiosity_lm_per_m2);
+  const View view = ChooseView(patches, **scene, solution.radiosity_lm_per_m2);
   const std::vector<std::array<Rgb, 3>> light =
-      SmoothIrradiance(patches, FindCornerFans(patches, scene), solution.irradiance_lx);
-  const Picture picture = DrawPicture(view, patches, scene, solution, light);
-  const LuxScale scale = ChooseLuxScale(picture);
-  const ReportPictures pictures{
-      EncodePng(picture.width, picture.height, picture.display),
-      EncodePng(picture.width, picture.height, FalseColorPicture(picture, scale)), scale, view,
-      picture.exposure};
-  absl::Status status = WriteOutputFile(stem + ".png", pictures.png);
-  if (status.ok()) status = WriteIfOk(stem + ".exr", EncodeExr(picture));
-  if (status.ok()) {
+      SmoothIrradiance(patches, FindCornerFans(patches, **scene), solution.irradiance_lx);
+  const Picture picture = DrawPicture(view, patches, **scene, solution, light);
+  std::string png;
+  if (files.png || files.report) png = EncodePng(picture.width, picture.height, picture.display);
+  absl::Status status;
+  if (files.png) status = WriteOutputFile(stem + ".png", png);
+  if (status.ok() && files.exr) status = WriteIfOk(stem + ".exr", EncodeExr(picture));
+  if (status.ok() && files.glb) {
     status = WriteIfOk(stem + ".glb", EncodeGlb(patches, light, picture.exposure, view));
   }
   if (status.ok()) {
-    status = WriteOutputFile(folder + "/run.json", EncodeRunJson(record, view, picture.exposure));
+    status = WriteOutputFile(folder + "/run.json",
+                             EncodeRunJson(record, PictureFacts{view, picture.exposure}));
   }
-  if (status.ok()) {
-    status = WriteOutputFile(folder + "/report.html", EncodeReport(record, pictures));
-  }
-  return status;
+  if (!status.ok() || !files.report) return status;
+  const LuxScale scale = ChooseLuxScale(picture);
+  const ReportPictures pictures{
+      png, EncodePng(picture.width, picture.height, FalseColorPicture(picture, scale)), scale, view,
+      picture.exposure};
+  return WriteOutputFile(folder + "/report.html", EncodeReport(record, pictures));
 }
 
 }  // namespace
 
-absl::Status WriteOutputs(const std::string& folder, const RunRecord& record) {
+absl::Status WriteOutputs(const std::string& folder, const RunRecord& record,
+                          const OutputFiles& files) {
   if (absl::Status status = MakeOutputFolder(folder); !status.ok()) return status;
   // The numbers first: they are what a full disk should leave.
-  absl::Status status = WritePatchTable(folder + "/patches.csv",
-                                        MakePatchTable(*record.patches, *record.snapshot.solution));
-  if (!status.ok()) return status;
-  const absl::StatusOr<std::unique_ptr<RayScene>> scene = RayScene::Create(*record.patches);
-  if (!scene.ok()) return scene.status();
-  return WritePictures(folder + "/" + record.name, folder, record, **scene);
+  if (files.csv) {
+    absl::Status status = WritePatchTable(
+        folder + "/patches.csv", MakePatchTable(*record.patches, *record.snapshot.solution));
+    if (!status.ok()) return status;
+  }
+  if (files.NeedPicture()) return WritePictures(folder, record, files);
+  return WriteOutputFile(folder + "/run.json", EncodeRunJson(record, std::nullopt));
 }
 
 }  // namespace lambert

@@ -8,11 +8,21 @@
 
 namespace lambert {
 
-// Writes patches.csv, run.json, NAME.glb, NAME.exr, NAME.png and report.html into `folder`, which
-// is made if need be; each file appears whole or not at all, and an older one is replaced.
+// The files that may be left out: what none of them needs is not computed.
+struct OutputFiles {
+  bool csv = true;  // patches.csv
+  bool glb = true, exr = true, png = true;
+  bool report = true;  // report.html
+  bool NeedPicture() const { return glb || exr || png || report; }
+};
+
+// Writes run.json, and of patches.csv, NAME.glb, NAME.exr, NAME.png and report.html those that are
+// asked for, into `folder`, which is made if need be; each file appears whole or not at all, and an
+// older one is replaced; older ones that are not asked for are left as they are.
 // convergence.csv is not written here: ConvergenceLog appends to it while the run goes.
 // Fails with OUTPUT_FAILED naming the file (disk full, no right to write).
 // Requires: record.patches and record.snapshot.solution are set and about the same patches.
-absl::Status WriteOutputs(const std::string& folder, const RunRecord& record);
+absl::Status WriteOutputs(const std::string& folder, const RunRecord& record,
+                          const OutputFiles& files = {});
 
 }  // namespace lambert

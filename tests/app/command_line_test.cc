@@ -147,6 +147,15 @@ TEST(CommandLine, PartsThatAreNoneOrBothAreRefused) {
             "with, without: black stands in both; name it in one of them");
 }
 
+TEST(CommandLine, OutputsAreAllOrThoseThatAreNamed) {
+  const OutputFiles all = Good({"bake", "a.glb", "-o", "out"}).outputs;
+  EXPECT_TRUE(all.csv && all.glb && all.exr && all.png && all.report);
+  const OutputFiles some = Good({"bake", "a.glb", "-o", "out", "--outputs", "csv,png"}).outputs;
+  EXPECT_TRUE(some.csv && some.png && !some.glb && !some.exr && !some.report);
+  EXPECT_EQ(Bad({"bake", "a.glb", "-o", "out", "--outputs", "jpg"}),
+            "--outputs: 'jpg' is not one of csv, glb, exr, png, report; see lambert bake --help");
+}
+
 TEST(CommandLine, QualityIsAWantedErrorByName) {
   EXPECT_EQ(Good({"plan", "a.glb", "--quality", "preview"}).solve.max_error, 0.1);
   EXPECT_EQ(Good({"plan", "a.glb", "--quality", "draft"}).solve.max_error, 0.03);

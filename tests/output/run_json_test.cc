@@ -18,7 +18,7 @@ RunRecord SomeRecord() {
 
 TEST(EncodeRunJson, HoldsOptionsPlanLedgerTotalsAndTimings) {
   const RunRecord record = SomeRecord();
-  const Json json = Json::parse(EncodeRunJson(record, {}, {0.25}));
+  const Json json = Json::parse(EncodeRunJson(record, PictureFacts{{}, {0.25}}));
   EXPECT_EQ(json["name"], "room");
   EXPECT_EQ(json["scene_digest"], std::string(64, 'a'));
   EXPECT_EQ(json["seed"], 1);
@@ -45,7 +45,7 @@ TEST(NeverHit, AreThePatchesWithoutHitsWhereThatLeavesTheirLightOpen) {
   solution.hits[3] = solution.hits[7] = 0;
   record.snapshot.solution = std::make_shared<const Solution>(solution);
   EXPECT_EQ(NeverHit(record), (std::vector<PatchIndex>{3, 7}));
-  EXPECT_EQ(Json::parse(EncodeRunJson(record, {}, {}))["totals"]["patches_never_hit"], 2);
+  EXPECT_EQ(Json::parse(EncodeRunJson(record, PictureFacts{}))["totals"]["patches_never_hit"], 2);
   record.stop_reason = StopReason::kNothingToShoot;
   EXPECT_TRUE(NeverHit(record).empty());
   record.stop_reason = StopReason::kErrorReached;
@@ -57,28 +57,34 @@ TEST(EncodeRunJson, WhatIsNotKnownIsNull) {
   RunRecord record = SomeRecord();
   record.snapshot.progress.estimated_rms_area = -1;
   record.measures = ErrorMeasures{0.1, 0.2, std::nullopt, 0.3, 0.4};
-  const Json json = Json::parse(EncodeRunJson(record, {}, {}));
+  const Json json = Json::parse(EncodeRunJson(record, PictureFacts{}));
   EXPECT_TRUE(json["totals"]["estimated_rms_area"].is_null());
   EXPECT_TRUE(json["measures"]["rms_local"].is_null());
   EXPECT_EQ(json["measures"]["p95"], 0.3);
 }
 
+TEST(EncodeRunJson, WithoutAPictureThereAreNoFactsOfIt) {
+  const RunRecord record = RecordOf(PatchesOf(MakeCornell()), [](Vec3) { return Rgb{}; });
+  EXPECT_TRUE(Json::parse(EncodeRunJson(record, std::nullopt))["picture"].is_null());
+  EXPECT_FALSE(Json::parse(EncodeRunJson(record, PictureFacts{}))["picture"].is_null());
+}
+
 TEST(EncodeRunJson, AnInterruptedRunSaysSo) {
   RunRecord record = SomeRecord();
   record.interrupted = true;
-  EXPECT_EQ(Json::parse(EncodeRunJson(record, {}, {}))["stop_reason"], "interrupted");
+  EXPECT_EQ(Json::parse(EncodeRunJson(record, PictureFacts{}))["stop_reason"], "interrupted");
 }
 
 TEST(EncodeRunJson, RadiometricRunsCountWatts) {
   RunRecord record = SomeRecord();
   record.patch_options.emission_unit = EmissionUnit::kWattPerM2PerSr;
-  EXPECT_EQ(Json::parse(EncodeRunJson(record, {}, {}))["ledger"]["unit"], "W");
+  EXPECT_EQ(Json::parse(EncodeRunJson(record, PictureFacts{}))["ledger"]["unit"], "W");
 }
 
 TEST(EncodeRunJson, BytesThatAreNotUtf8AreReplaced) {
   RunRecord record = SomeRecord();
   record.name = "room \xff";
-  EXPECT_TRUE(Json::accept(EncodeRunJson(record, {}, {})));
+  EXPECT_TRUE(Json::accept(EncodeRunJson(record, PictureFacts{})));
 }
 
 }  // namespace

@@ -33,6 +33,26 @@ TEST(WriteOutputs, LeavesTheAgreedFilesAndNothingElse) {
                                                     "room.exr", "room.png", "report.html"}));
 }
 
+TEST(WriteOutputs, LeavesOutWhatIsNotAskedForAndTheRestIsTheSame) {
+  const std::string all = TestFolder() + "/all";
+  ASSERT_TRUE(WriteOutputs(all, SomeRecord()).ok());
+  const std::pair<OutputFiles, std::string> cases[] = {
+      {{true, false, false, false, false}, "patches.csv"},
+      {{false, true, false, false, false}, "room.glb"},
+      {{false, false, true, false, false}, "room.exr"},
+      {{false, false, false, true, false}, "room.png"},
+      {{false, false, false, false, true}, "report.html"}};
+  for (const auto& [files, name] : cases) {
+    const std::string folder = TestFolder() + "/" + name + ".d";
+    ASSERT_TRUE(WriteOutputs(folder, SomeRecord(), files).ok());
+    EXPECT_EQ(FilesIn(folder), (std::set<std::string>{name, "run.json"}));
+    EXPECT_EQ(ReadFile(folder + "/" + name), ReadFile(all + "/" + name));
+  }
+  const std::string none = TestFolder() + "/none";
+  ASSERT_TRUE(WriteOutputs(none, SomeRecord(), {false, false, false, false, false}).ok());
+  EXPECT_EQ(FilesIn(none), std::set<std::string>{"run.json"});
+}
+
 TEST(WriteOutputs, EqualRecordsGiveEqualBytes) {
   const std::string a = TestFolder() + "/a", b = TestFolder() + "/b";
   ASSERT_TRUE(WriteOutputs(b, SomeRecord()).ok());
