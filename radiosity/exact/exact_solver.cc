@@ -22,8 +22,8 @@ std::vector<double> MeanReflectance(const PatchSet& patches) {
 
 }  // namespace
 
-ExactSolver::ExactSolver(const PatchSet& patches, const RayScene& scene)
-    : patches_(patches), exchange_(patches, scene) {}
+ExactSolver::ExactSolver(const PatchSet& patches, const RayScene& scene, bool may_hide)
+    : patches_(patches), exchange_(patches, scene, may_hide) {}
 
 Transport ExactSolver::SampleTransport(const std::vector<double>& emitted, int64_t rays,
                                        uint64_t seed, uint32_t pass) const {

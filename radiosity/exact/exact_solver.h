@@ -15,7 +15,7 @@ namespace lambert {
 // it takes time and memory by the square of the patches: see Exchange.
 class ExactSolver {
  public:
-  ExactSolver(const PatchSet& patches, const RayScene& scene);
+  ExactSolver(const PatchSet& patches, const RayScene& scene, bool may_hide = true);
 
   // How much of whose light arrives where in one pass: shared by the channels of the pass.
   // `emitted` is by emitter, the mean of its channels; it steers the samples to where they matter.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "radiosity/exact/closure.h"
 #include "radiosity/exact/occluders.h"
@@ -45,35 +46,36 @@ void SetGuess(const std::vector<Segments::Segment>& segments, const std::vector<
 
 }  // namespace
 
-Exchange::Exchange(const PatchSet& patches, const RayScene& scene)
+Exchange::Exchange(const PatchSet& patches, const RayScene& scene, bool may_hide)
     : patches_(patches),
       scene_(scene),
-      is_closed_(IsClosed(patches, scene)),
+      is_closed_(may_hide && IsClosed(patches, scene)),
       unoccluded_{
           ExchangeMatrix(patches.size()),
           LightFractions(patches.point_lights.size(), std::vector<double>(patches.size()))} {
-  const Occluders occluders(patches);
+  const std::optional<Occluders> occluders =
+      may_hide ? std::optional<Occluders>(patches) : std::nullopt;
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     for (PatchIndex j = i + 1; j < patches.size(); ++j) {
       const Facing facing = FacingParts(patches.corners[i], patches.corners[j]);
       const double whole = ExchangeArea(facing);
       if (whole == 0) continue;
       unoccluded_.exchange.at(i, j) = whole;
-      if (!occluders.SurelyClear(facing.from, facing.to)) links_.push_back({i, j});
+      if (may_hide && !occluders->SurelyClear(facing.from, facing.to)) links_.push_back({i, j});
     }
   }
-  AddLights();
+  AddLights(may_hide);
   RunPilot();
 }
 
-void Exchange::AddLights() {
+void Exchange::AddLights(bool may_hide) {
   for (size_t l = 0; l < patches_.point_lights.size(); ++l) {
     const Vec3 light = patches_.point_lights[l].position;
     for (PatchIndex i = 0; i < patches_.size(); ++i) {
       const double angle = SolidAngleFrom(light, patches_.corners[i]);
       if (angle == 0) continue;
       unoccluded_.lights[l][i] = angle / (4 * std::numbers::pi);
-      links_.push_back({i, patches_.size() + static_cast<PatchIndex>(l)});
+      if (may_hide) links_.push_back({i, patches_.size() + static_cast<PatchIndex>(l)});
     }
   }
 }

@@ -32,8 +32,9 @@ struct Link {
 // what it guesses may steer the samples of a pass without biasing them.
 class Exchange {
  public:
-  // The patch set and the ray scene must outlive it.
-  Exchange(const PatchSet& patches, const RayScene& scene);
+  // The patch set and the ray scene must outlive it. `may_hide` false: nothing hides anything, no
+  // pair is looked at and no ray traced. Requires: it is true, or the scene is convex.
+  Exchange(const PatchSet& patches, const RayScene& scene, bool may_hide = true);
 
   const std::vector<Link>& links() const { return links_; }
 
@@ -50,7 +51,7 @@ class Exchange {
                    uint32_t pass) const;
 
  private:
-  void AddLights();
+  void AddLights(bool may_hide);
   void RunPilot();
   Segments SegmentsOf(const Link& link) const;
   static double& Entry(const Link& link, Transport& transport);

@@ -40,8 +40,11 @@ void KeepFirstChannel(UnitResult& result) {
 
 class ExactShooter : public Shooter {
  public:
-  ExactShooter(std::shared_ptr<const PatchSet> patches, std::unique_ptr<RayScene> scene)
-      : patches_(std::move(patches)), scene_(std::move(scene)), solver_(*patches_, *scene_) {
+  ExactShooter(std::shared_ptr<const PatchSet> patches, std::unique_ptr<RayScene> scene,
+               bool may_hide)
+      : patches_(std::move(patches)),
+        scene_(std::move(scene)),
+        solver_(*patches_, *scene_, may_hide) {
     for (int c = 0; c < 3; ++c) reflectance_[c] = Channel(patches_->reflectance, c);
   }
 
@@ -135,12 +138,12 @@ absl::StatusOr<UnitResult> ExactShooter::Run(const WorkUnit& unit) const {
 }  // namespace
 
 absl::StatusOr<std::shared_ptr<const Shooter>> CreateExactShooter(
-    std::shared_ptr<const PatchSet> patches) {
+    std::shared_ptr<const PatchSet> patches, const ShootOptions& options) {
   absl::StatusOr<std::unique_ptr<RayScene>> scene = RayScene::Create(*patches);
   if (!scene.ok()) return scene.status();
   const DenormalsFlushed flushed;
-  return std::shared_ptr<const Shooter>(
-      std::make_shared<ExactShooter>(std::move(patches), *std::move(scene)));
+  return std::shared_ptr<const Shooter>(std::make_shared<ExactShooter>(
+      std::move(patches), *std::move(scene), !options.parts.without.Has(Part::kVisibility)));
 }
 
 }  // namespace lambert

@@ -13,8 +13,8 @@ namespace lambert {
 // they count all the same. The result's deposits are what arrives at each patch over all bounces,
 // each with one hit; `shot` is what is emitted and reflected. Run fails with FAILED_PRECONDITION
 // (SINGULAR_CLOSED_RHO_1) where flux has no way out. Making the shooter takes the time of all
-// closed forms. Fails as Shooter::Create does.
+// closed forms. Without the part visibility none is traced. Fails as Shooter::Create does.
 absl::StatusOr<std::shared_ptr<const Shooter>> CreateExactShooter(
-    std::shared_ptr<const PatchSet> patches);
+    std::shared_ptr<const PatchSet> patches, const ShootOptions& options);
 
 }  // namespace lambert

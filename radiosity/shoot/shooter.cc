@@ -87,7 +87,9 @@ std::string UnitVersion() {
 absl::StatusOr<std::shared_ptr<const Shooter>> Shooter::Create(
     std::shared_ptr<const PatchSet> patches, const ShootOptions& options) {
   if (absl::Status status = ValidateFor(*patches, options); !status.ok()) return status;
-  if (options.method == Method::kExact) return CreateExactShooter(std::move(patches));
+  if (options.method == Method::kExact) {
+    return CreateExactShooter(std::move(patches), options);
+  }
   absl::StatusOr<std::unique_ptr<RayScene>> scene = RayScene::Create(*patches);
   if (!scene.ok()) return scene.status();
   absl::StatusOr<std::unique_ptr<Launcher>> launcher = Launcher::Create(*patches, options, **scene);

@@ -120,13 +120,22 @@ Need AmbientNeed(const PatchSet& patches) {
           "the search for parts that exchange no light"};
 }
 
-Need ClearPairsNeed() {
-  return {Part::kVisibility,
-          "rays between patches in plain sight",
-          false,
-          "where nothing reaches into the hull of two patches their form factor is a closed form",
-          "every ray of a convex scene",
-          "a closed form has nothing that rays could add"};
+Need VisibilityNeed(const PatchSet& patches, Method method) {
+  Need need{Part::kVisibility, "what hides what", true};
+  if (method != Method::kExact) {
+    need.reason = "rays end at the first patch that they meet";
+    need.only_way = "only the method exact can do without rays, in a convex scene";
+  } else if (!IsConvex(patches)) {
+    need.reason =
+        "some patches may stand between others: rays go between those pairs only; where nothing "
+        "reaches into the hull of two patches their form factor is a closed form";
+    need.only_way = "some patches may stand between others";
+  } else {
+    need.needed = false;
+    need.reason = "the scene is convex: every form factor is a closed form";
+    need.saving = "every ray, up to 4 million of them that would look for a way out";
+  }
+  return need;
 }
 
 Need StdErrorNeed(const SolveOptions& options) {
@@ -149,11 +158,8 @@ std::vector<Need> FindNeeds(const PatchSet& patches, const SolveOptions& options
   if (counts) needs.push_back(ClusterNeed(patches));
   if (shoot.method == Method::kPhsAlpha) needs.push_back(AlphaNeed(patches));
   if (shoot.method == Method::kPhsHier) needs.push_back(HierarchyNeed(patches));
-  if (shoot.method == Method::kExact) {
-    needs.push_back(ClearPairsNeed());
-  } else {
-    needs.push_back(AmbientNeed(patches));
-  }
+  if (shoot.method != Method::kExact) needs.push_back(AmbientNeed(patches));
+  needs.push_back(VisibilityNeed(patches, shoot.method));
   needs.push_back(StdErrorNeed(options));
   if (CountBlack(patches) > 0) needs.push_back(BlackNeed(patches, counts));
   return needs;

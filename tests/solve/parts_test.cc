@@ -73,6 +73,25 @@ TEST(PartClusters, CountTheSameWithoutThem) {
   }
 }
 
+TEST(PartVisibility, OfAConvexRoomIsNothingThatExactHasToTrace) {
+  const auto room = Share(SceneMaker()
+                              .Box({}, {3, 2, 3}, true, {{{0.6, 0.5, 0.4}, {1, 2, 3}}}, 3)
+                              .Light({1, 1.5, 1}, {1, 1, 1})
+                              .Make());
+  const SolveOptions options = Budget(Method::kExact, 100'000);
+  EXPECT_TRUE(MakePlan(*room, options).options.shoot.parts.without.Has(Part::kVisibility));
+  SolverRun with(room, With(options, Part::kVisibility)), without(room, options);
+  ASSERT_TRUE(with.ToTheEnd().ok());
+  ASSERT_TRUE(without.ToTheEnd().ok());
+  const Solution a = *with.solver.MakeSnapshot().solution;
+  const Solution b = *without.solver.MakeSnapshot().solution;
+  for (PatchIndex i = 0; i < room->size(); ++i) {
+    // Point lights are sampled where something may hide them.
+    const double error = 4 * Mean(a.std_error_lm_per_m2[i]) + 1e-9;
+    EXPECT_NEAR(Mean(a.radiosity_lm_per_m2[i]), Mean(b.radiosity_lm_per_m2[i]), error) << i;
+  }
+}
+
 TEST(PartHierarchy, OfSurfacesOfOnePatchIsNothing) {
   PatchSet loose = *GrayRoom();
   for (PatchIndex i = 0; i < loose.size(); ++i) loose.source[i].node = i;

@@ -156,8 +156,10 @@ TEST(ValidateFor, RefusesPartsThatCannotBeOtherwiseAndSaysWhy) {
   SolveOptions importance = Asked(Method::kImportance, {}, {Part::kPyramids});
   importance.shoot.region = {"0"};
   EXPECT_NE(message(importance).find("is its pyramids"), std::string::npos);
-  EXPECT_NE(message(Asked(Method::kExact, {Part::kVisibility})).find("--with visibility"),
-            std::string::npos);
+  for (Method method : {Method::kExact, Method::kPmcr}) {
+    EXPECT_NE(message(Asked(method, {}, {Part::kVisibility})).find("--without visibility"),
+              std::string::npos);
+  }
 }
 
 TEST(MakePlan, SizesGrowWithTheSceneAndTheFirstPassFitsTheBudget) {
