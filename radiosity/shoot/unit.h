@@ -16,6 +16,11 @@ namespace lambert {
 
 using Quanta = std::array<int64_t, 3>;  // r, g, b
 
+inline Rgb InLumen(const Quanta& quanta, const Rgb& quantum_lm) {
+  return quantum_lm * Rgb{static_cast<double>(quanta[0]), static_cast<double>(quanta[1]),
+                          static_cast<double>(quanta[2])};
+}
+
 // All visits of a step shoot at most 2^kMaxQuantaBits quanta a channel. A ray may carry 404 times
 // what its patch shoots: 101 where its pyramid has the least density (density.h), times 4 for the
 // greatest cosine of a pyramid over its mean. 2^54 times that is still under 2^63.
@@ -50,6 +55,7 @@ struct Deposit {
   int64_t r = 0, g = 0, b = 0;  // quanta
   int64_t hits = 0;             // rays, > 0
   PatchIndex patch = 0;
+  Quanta quanta() const { return {r, g, b}; }
   bool operator==(const Deposit&) const = default;
 };
 

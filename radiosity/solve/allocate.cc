@@ -43,7 +43,7 @@ StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray
   Rgb total;
   double cumulative = offset, whole = 0;
   for (const auto& [emitter, flux] : unsent) {
-    const double scalar = flux.r + flux.g + flux.b;
+    const double scalar = ChannelSum(flux);
     if (!(scalar > 0)) continue;
     const bool weighted = static_cast<size_t>(emitter) < weights.size();
     const double weight = weighted ? weights[emitter] : 1;
