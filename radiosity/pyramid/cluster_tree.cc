@@ -10,16 +10,6 @@ constexpr int32_t kLeafPatches = 64;
 
 }  // namespace
 
-LocalFrame PatchFrame(const PatchSet& patches, PatchIndex i) {
-  const auto& corner = patches.corners[i];
-  LocalFrame frame;
-  frame.origin = PatchCentroid(patches, i);
-  frame.z = PatchNormal(patches, i);
-  frame.x = Normalized(corner[1] - corner[0]);
-  frame.y = Cross(frame.z, frame.x);
-  return frame;
-}
-
 ClusterTree::ClusterTree(const PatchSet& patches, bool count_black) {
   std::vector<std::array<Vec3, 3>> corners;
   for (PatchIndex i = 0; i < patches.size(); ++i) {

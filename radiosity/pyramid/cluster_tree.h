@@ -11,18 +11,9 @@
 
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/pyramid/cells.h"
+#include "radiosity/pyramid/local_frame.h"
 
 namespace lambert {
-
-// A patch's local frame: origin at its centroid, z along its normal.
-struct LocalFrame {
-  Vec3 origin, x, y, z;
-  Vec3 ToLocal(Vec3 point) const {
-    const Vec3 d = point - origin;
-    return {Dot(d, x), Dot(d, y), Dot(d, z)};
-  }
-};
-LocalFrame PatchFrame(const PatchSet& patches, PatchIndex i);
 
 // Immutable; any number of threads may count at once.
 class ClusterTree {

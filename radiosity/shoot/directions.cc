@@ -56,16 +56,17 @@ std::vector<double> ErrorWorth(const PatchSet& patches, double metric) {
 
 DirectionTable::DirectionTable(const PatchSet& patches, const RayScene& scene,
                                const Emitters& emitters, const ShootOptions& options,
-                               std::vector<double> hit_worth)
+                               std::vector<double> hit_worth, const SurfaceTree* tree)
     : patches_(patches),
       scene_(scene),
       emitters_(emitters),
+      tree_(tree),
       options_(options),
       hit_worth_(std::move(hit_worth)),
       min_rays_(MinRaysForDensities(patches, options)),
       sampler_(options.pyramids),
       by_flux_(FromWorth(std::vector<double>(sampler_.fractions().size()))),
-      kept_(patches.size()) {
+      kept_(tree != nullptr ? tree->place_count() : patches.size()) {
   const bool probes = options.method == Method::kHs97 || options.method == Method::kHs98;
   if (probes) return;
   if (LeastVarianceRule(options)) {
@@ -79,22 +80,33 @@ DirectionTable::~DirectionTable() {
   for (auto& slot : kept_) delete slot.load();
 }
 
-std::vector<double> DirectionTable::Worth(PatchIndex patch) const {
+PatchIndex DirectionTable::PlaceFor(const Visit& visit, double rays_per_m2) const {
+  if (visit.ray_count >= min_rays_) return visit.emitter;
+  if (tree_ == nullptr) return kNoPatch;
+  for (int32_t e = tree_->ParentOf(visit.emitter); e >= 0; e = tree_->elements()[e].parent) {
+    const double rays = rays_per_m2 * tree_->elements()[e].area_m2;
+    if (rays >= static_cast<double>(min_rays_)) return tree_->PlaceOf(e);
+  }
+  return kNoPatch;
+}
+
+std::vector<double> DirectionTable::Worth(PatchIndex place) const {
   const HemisphereCells& cells = sampler_.cells();
+  const LocalFrame frame =
+      tree_ != nullptr ? PlaceFrame(patches_, *tree_, place) : PatchFrame(patches_, place);
   if (targets_ != nullptr) {
     const double opening =
         kOpeningShare * std::sqrt(2 * std::numbers::pi / static_cast<double>(cells.size()));
-    return LeastVariance(sampler_.fractions(),
-                         targets_->Moments(PatchFrame(patches_, patch), cells, opening));
+    return LeastVariance(sampler_.fractions(), targets_->Moments(frame, cells, opening));
   }
   if (clusters_ != nullptr) {
     const std::vector<int32_t> counts =
-        clusters_->CountPatches(PatchFrame(patches_, patch), cells, options_.pyramids.use_clusters);
+        clusters_->CountPatches(frame, cells, options_.pyramids.use_clusters);
     return {counts.begin(), counts.end()};
   }
   // hs98: the probing rays are of no seed, so that the densities are those of the scene.
-  const RandomStream stream{0, static_cast<uint32_t>(patch), 0, 0};
-  return ProbeWorth(sampler_, scene_, emitters_, patch, stream, options_.pyramids.probes,
+  const RandomStream stream{0, static_cast<uint32_t>(place), 0, 0};
+  return ProbeWorth(sampler_, scene_, emitters_, place, stream, options_.pyramids.probes,
                     {options_.pyramids.rule, &hit_worth_});
 }
 
@@ -104,8 +116,8 @@ Directions DirectionTable::FromWorth(const std::vector<double>& worth) const {
           {}};
 }
 
-Directions DirectionTable::Compute(PatchIndex patch) const {
-  const std::vector<double> worth = Worth(patch);
+Directions DirectionTable::Compute(PatchIndex place) const {
+  const std::vector<double> worth = Worth(place);
   if (options_.method != Method::kPhsAdaptive) return FromWorth(worth);
   AdaptivePyramids split =
       SplitWhereWorthIs(sampler_.hemisphere(), worth, options_.pyramids.leaves);
@@ -118,14 +130,14 @@ Directions DirectionTable::Compute(PatchIndex patch) const {
           std::move(split.pyramids)};
 }
 
-std::shared_ptr<const Directions> DirectionTable::Get(PatchIndex patch) const {
+std::shared_ptr<const Directions> DirectionTable::Get(PatchIndex place) const {
   // Without an owner: no count to be shared by threads.
   const auto lent = [](const Directions* kept) {
     return std::shared_ptr<const Directions>(std::shared_ptr<void>(), kept);
   };
-  std::atomic<const Directions*>& slot = kept_[patch];
+  std::atomic<const Directions*>& slot = kept_[place];
   if (const Directions* kept = slot.load(std::memory_order_acquire)) return lent(kept);
-  auto directions = std::make_unique<const Directions>(Compute(patch));
+  auto directions = std::make_unique<const Directions>(Compute(place));
   const auto bytes = static_cast<int64_t>(directions->spans.size() * sizeof(uint32_t) +
                                           directions->pyramids.size() * sizeof(void*));
   if (kept_bytes_.fetch_add(bytes) + bytes > kCacheBytes) return directions;

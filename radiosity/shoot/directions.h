@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "radiosity/patch/patch_set.h"
+#include "radiosity/patch/surface_tree.h"
 #include "radiosity/pyramid/cluster_tree.h"
 #include "radiosity/pyramid/target_tree.h"
 #include "radiosity/shoot/cell_sampler.h"
 #include "radiosity/shoot/emitter.h"
 #include "radiosity/shoot/options.h"
+#include "radiosity/shoot/unit.h"
 #include "radiosity/trace/ray_scene.h"
 
 namespace lambert {
@@ -27,33 +29,38 @@ std::vector<double> ErrorWorth(const PatchSet& patches, double metric);
 // Any number of threads at once.
 class DirectionTable {
  public:
-  // `scene` and `emitters` are of `patches`; all must outlive the table. `hit_worth`: of flux that
-  // arrives at each patch, for the rule of least variance; may be empty for the rule of counts.
-  // Requires: UsesPyramids(options.method).
+  // `scene`, `emitters` and `tree` (null: none) are of `patches`; all must outlive the table.
+  // `hit_worth`: of flux that arrives at each patch, for the rule of least variance; may be empty
+  // for the rule of counts. Requires: UsesPyramids(options.method).
   DirectionTable(const PatchSet& patches, const RayScene& scene, const Emitters& emitters,
-                 const ShootOptions& options, std::vector<double> hit_worth);
+                 const ShootOptions& options, std::vector<double> hit_worth,
+                 const SurfaceTree* tree = nullptr);
   ~DirectionTable();
   DirectionTable(const DirectionTable&) = delete;
   DirectionTable& operator=(const DirectionTable&) = delete;
 
   const CellSampler& sampler() const { return sampler_; }
-  int64_t min_rays() const { return min_rays_; }
+  // Whose directions the rays of a patch follow, a place of the tree: the patch's own where the
+  // visit has MinRaysForDensities; else those of the smallest element around it that shoots as many
+  // where `rays_per_m2` start; kNoPatch where none does.
+  PatchIndex PlaceFor(const Visit& visit, double rays_per_m2) const;
   const std::vector<double>& hit_worth() const { return hit_worth_; }
   // The densities of f_p: those of cells that are all worth nothing.
   const Directions& by_flux() const { return by_flux_; }
-  // Of a patch: a function of the patch set and the options alone. Lives as long as the table and
-  // the pointer.
-  std::shared_ptr<const Directions> Get(PatchIndex patch) const;
+  // Of a patch or a place: a function of the patch set and the options alone. Lives as long as the
+  // table and the pointer.
+  std::shared_ptr<const Directions> Get(PatchIndex place) const;
   // Densities from what each cell is worth, by the options' weights.
   Directions FromWorth(const std::vector<double>& worth) const;
 
  private:
-  Directions Compute(PatchIndex patch) const;
-  std::vector<double> Worth(PatchIndex patch) const;
+  Directions Compute(PatchIndex place) const;
+  std::vector<double> Worth(PatchIndex place) const;
 
   const PatchSet& patches_;
   const RayScene& scene_;
   const Emitters& emitters_;
+  const SurfaceTree* const tree_;
   const ShootOptions options_;
   const std::vector<double> hit_worth_;
   const int64_t min_rays_;

@@ -15,14 +15,15 @@ namespace lambert {
 
 absl::StatusOr<std::unique_ptr<Launcher>> Launcher::Create(const PatchSet& patches,
                                                            const ShootOptions& options,
-                                                           const RayScene& scene) {
-  std::unique_ptr<Launcher> launcher(new Launcher(patches, options, scene));
+                                                           const RayScene& scene,
+                                                           const SurfaceTree* tree) {
+  std::unique_ptr<Launcher> launcher(new Launcher(patches, options, scene, tree));
   if (!UsesPyramids(options.method)) return launcher;
   absl::StatusOr<std::vector<double>> worth =
       HitWorth(patches, scene, launcher->emitters_, options);
   if (!worth.ok()) return worth.status();
   launcher->directions_ = std::make_unique<DirectionTable>(patches, scene, launcher->emitters_,
-                                                           options, *std::move(worth));
+                                                           options, *std::move(worth), tree);
   return launcher;
 }
 
@@ -76,17 +77,18 @@ absl::Status Launcher::Launch(const WorkUnit& unit, Flight& flight) const {
                         "its rays or quanta are out of range", "send units of this patch set"});
     }
     flight.Begin(visit);
+    const PatchIndex place = PlaceFor(unit, visit);
     if (emitters_.IsPointLight(visit.emitter)) {
       volley.Finish();
       ShootSphere(visit, stream, flight);
-    } else if (!IsDivided(visit)) {
+    } else if (place == kNoPatch) {
       volley.ShootCosine(visit);
     } else if (options_.method == Method::kHs97) {
       const uint32_t probes = ProbingStage(visit).count;
       ShootFollowing(visit, unread.first(probes), offsets.Of(k, 1), volley);
       unread.remove_prefix(probes);
     } else {
-      ShootDivided(visit, offsets.Of(k, 0), volley);
+      ShootDivided(visit, place, offsets.Of(k, 0), volley);
     }
   }
   volley.Finish();
@@ -106,10 +108,11 @@ void Launcher::ShootSphere(const Visit& visit, RandomStream stream, Flight& flig
   }
 }
 
-void Launcher::ShootDivided(const Visit& visit, uint32_t offset, Volley& volley) const {
+void Launcher::ShootDivided(const Visit& visit, PatchIndex place, uint32_t offset,
+                            Volley& volley) const {
   const Stage all{0, visit.ray_count, visit.quanta};
   if (visit.seen.empty()) {
-    ShootStage(visit, all, *directions_->Get(visit.emitter), offset, volley);
+    ShootStage(visit, all, *directions_->Get(place), offset, volley);
   } else {
     ShootStage(visit, all, directions_->FromWorth({visit.seen.begin(), visit.seen.end()}), offset,
                volley);
@@ -138,7 +141,7 @@ std::vector<CellHit> Launcher::ShootProbes(const WorkUnit& unit, Offsets& offset
   flight.RecordHits(&hits);
   for (size_t k = 0; k < unit.visits.size(); ++k) {
     const Visit& visit = unit.visits[k];
-    if (!IsPossible(visit) || !IsDivided(visit)) continue;
+    if (!IsPossible(visit) || PlaceFor(unit, visit) == kNoPatch) continue;
     ShootStage(visit, ProbingStage(visit), directions_->by_flux(), offsets.Of(k, 0), volley);
   }
   volley.Finish();
