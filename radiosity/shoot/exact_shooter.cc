@@ -18,7 +18,7 @@ namespace {
 
 using Flux = std::vector<double>;  // quanta of one channel
 
-constexpr double kMostQuanta = 4.6e18;  // of all that arrives: under 2^62
+constexpr double kMostQuanta = 4.6e18;  // of all that is emitted, or arrives: under 2^62
 
 absl::Status BadUnit(const std::string& what) {
   return MakeError(absl::StatusCode::kInvalidArgument,
@@ -56,6 +56,7 @@ absl::StatusOr<std::array<Flux, 3>> ExactShooter::Emitted(const WorkUnit& unit) 
   const size_t emitters = patches_->corners.size() + patches_->point_lights.size();
   std::array<Flux, 3> emitted;
   emitted.fill(Flux(emitters));
+  Rgb total;
   for (const Visit& visit : unit.visits) {
     const bool is_whole = visit.ray_begin == 0 && visit.ray_end == visit.ray_count;
     if (visit.emitter < 0 || static_cast<size_t>(visit.emitter) >= emitters || !is_whole ||
@@ -63,8 +64,13 @@ absl::StatusOr<std::array<Flux, 3>> ExactShooter::Emitted(const WorkUnit& unit) 
       return BadUnit("the visit of emitter " + std::to_string(visit.emitter) +
                      " is out of range or not whole");
     }
-    for (int c = 0; c < 3; ++c) emitted[c][visit.emitter] += static_cast<double>(visit.quanta[c]);
+    for (int c = 0; c < 3; ++c) {
+      emitted[c][visit.emitter] += static_cast<double>(visit.quanta[c]);
+      total[c] += static_cast<double>(visit.quanta[c]);
+    }
   }
+  if (!(std::max({total.r, total.g, total.b}) < kMostQuanta))
+    return BadUnit("its quanta are too many");
   return emitted;
 }
 

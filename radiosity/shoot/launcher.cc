@@ -12,6 +12,21 @@
 #include "radiosity/shoot/probe.h"
 
 namespace lambert {
+namespace {
+
+// Whether what the visits shoot fits into its integers.
+bool HasRoom(const WorkUnit& unit) {
+  Quanta left{kMaxUnitQuanta, kMaxUnitQuanta, kMaxUnitQuanta};
+  for (const Visit& visit : unit.visits) {
+    for (int c = 0; c < 3; ++c) {
+      if (visit.quanta[c] < 0 || visit.quanta[c] > left[c]) return false;
+      left[c] -= visit.quanta[c];
+    }
+  }
+  return true;
+}
+
+}  // namespace
 
 absl::StatusOr<std::unique_ptr<Launcher>> Launcher::Create(const PatchSet& patches,
                                                            const ShootOptions& options,
@@ -57,6 +72,12 @@ class Launcher::Offsets {
 constexpr size_t kVisitsAhead = 16;  // tracing pushes them out of the cache: fetch them early
 
 absl::Status Launcher::Launch(const WorkUnit& unit, Flight& flight) const {
+  if (!HasRoom(unit)) {
+    return MakeError(
+        absl::StatusCode::kInvalidArgument,
+        {"FIELD_INVALID", "work unit", "its quanta are negative or too many",
+         "send units that hold at most " + std::to_string(kMaxUnitQuanta) + " quanta"});
+  }
   if (unit.pass >= 1u << 16) {
     return MakeError(absl::StatusCode::kInvalidArgument,
                      {"FIELD_INVALID", "work unit", "pass is 65536 or more", "use fewer passes"});
@@ -74,7 +95,7 @@ absl::Status Launcher::Launch(const WorkUnit& unit, Flight& flight) const {
     if (!IsPossible(visit)) {
       return MakeError(absl::StatusCode::kInvalidArgument,
                        {"FIELD_INVALID", "work unit, emitter " + std::to_string(visit.emitter),
-                        "its rays or quanta are out of range", "send units of this patch set"});
+                        "its rays are out of range", "send units of this patch set"});
     }
     flight.Begin(visit);
     const PatchIndex place = PlaceFor(unit, visit);

@@ -29,8 +29,9 @@ class Launcher {
                                                           const SurfaceTree* tree = nullptr);
 
   // Appends the rays of all visits to `flight`, which lands whenever it is full; the last ones stay
-  // in its batch. INVALID_ARGUMENT for a visit that names an emitter, rays or quanta that cannot
-  // be, or a pass over 65535; rays of visits before it may have been launched.
+  // in its batch. INVALID_ARGUMENT for quanta under 0 or over kMaxUnitQuanta in all, a pass over
+  // 65535, or a visit that names an emitter or rays that cannot be; rays of visits before it may
+  // have been launched.
   absl::Status Launch(const WorkUnit& unit, Flight& flight) const;
 
  private:
@@ -50,8 +51,7 @@ class Launcher {
         visit.seen.empty() ||
         (directions_ != nullptr && visit.seen.size() == directions_->sampler().fractions().size());
     return seen_fits && visit.emitter >= 0 && visit.emitter < emitters_.size() &&
-           visit.ray_begin <= visit.ray_end && visit.ray_end <= visit.ray_count &&
-           (visit.quanta[0] | visit.quanta[1] | visit.quanta[2]) >= 0;
+           visit.ray_begin <= visit.ray_end && visit.ray_end <= visit.ray_count;
   }
   // Whose directions the rays of a visit follow (DirectionTable::PlaceFor); kNoPatch: all the same.
   PatchIndex PlaceFor(const WorkUnit& unit, const Visit& visit) const {

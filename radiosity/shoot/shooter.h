@@ -28,7 +28,8 @@ class Shooter {
   virtual ~Shooter() = default;
 
   // The result depends only on the unit, the patch set and the options: bit for bit.
-  // INVALID_ARGUMENT for a unit that names an emitter or a range of rays that does not exist.
+  // INVALID_ARGUMENT for a unit that names an emitter or a range of rays that does not exist, or
+  // that holds negative quanta or too many (kMaxUnitQuanta; with `exact`, 4.6e18).
   virtual absl::StatusOr<UnitResult> Run(const WorkUnit& unit) const = 0;
 };
 
