@@ -39,7 +39,7 @@ void Measure(benchmark::State& state, const PatchSet& patches, size_t cells, Com
 
 void Count(benchmark::State& state) {
   const PatchSet patches = PatchesOf(MakeOffice(static_cast<int>(state.range(0))));
-  const ClusterTree clusters(patches, /*count_black=*/false);
+  const ClusterTree clusters(patches.corners, CountedPatches(patches, /*count_black=*/false));
   const Hemisphere cells(4, 4, 2);
   Measure(state, patches, cells.size(),
           [&](const LocalFrame& frame) { return clusters.CountPatches(frame, cells); });

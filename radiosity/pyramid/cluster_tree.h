@@ -15,11 +15,15 @@
 
 namespace lambert {
 
+// Which patches are counted: all, or those that reflect anything (JPS00, section 4).
+std::vector<bool> CountedPatches(const PatchSet& patches, bool count_black);
+
 // Immutable; any number of threads may count at once.
 class ClusterTree {
  public:
-  // `count_black`: false leaves patches of null reflectance out (JPS00, section 4).
-  ClusterTree(const PatchSet& patches, bool count_black);
+  // Of the patches that are counted, one of `counted` for each.
+  using Corners = std::vector<std::array<Vec3, 3>>;
+  ClusterTree(const Corners& corners, const std::vector<bool>& counted);
 
   // n_ip: the patches with at least one vertex in pyramid p, as seen in `frame` (JPS00, section 4).
   // counts[p] for each cell; a patch counts once in each that it touches.
@@ -38,8 +42,9 @@ class ClusterTree {
   };
   using Triangle = std::array<uint8_t, 3>;  // vertex numbers within a leaf
 
-  int32_t Build(const std::vector<std::array<Vec3, 3>>& corners, int32_t begin, int32_t end);
-  void FillLeaf(const std::vector<std::array<Vec3, 3>>& corners, Cluster& leaf);
+  struct Counted;
+  int32_t Build(const Counted& patches, int32_t begin, int32_t end);
+  void FillLeaf(const Counted& patches, Cluster& leaf);
   void CountLeaf(const Cluster& leaf, const LocalFrame& frame, const HemisphereCells& cells,
                  std::vector<int32_t>& counts) const;
 

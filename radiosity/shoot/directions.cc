@@ -14,8 +14,12 @@ constexpr int64_t kCacheBytes = int64_t{256} << 20;
 // Angle [rad] under which targets are taken as points: this share of a cell's width.
 constexpr double kOpeningShare = 0.6;
 
-bool LeastVarianceRule(const ShootOptions& options) {
+bool TakesLeastVariance(const ShootOptions& options) {
   return options.pyramids.rule == DensityRule::kVariance || options.method == Method::kImportance;
+}
+
+bool Probes(const ShootOptions& options) {
+  return options.method == Method::kHs97 || options.method == Method::kHs98;
 }
 
 // Measured (docs/benchmarks.md): counting takes 8 to 13 ns a patch of the scene, least variance 1.0
@@ -24,11 +28,15 @@ double DensityNs(const PatchSet& patches, const ShootOptions& options) {
   constexpr double kCountNs = 11, kCellNs = 1500;
   const double cells = options.pyramids.CellCount();
   if (options.method == Method::kHs98) return cells * options.pyramids.probes * kRayNs;
-  if (LeastVarianceRule(options)) return cells * kCellNs;
+  if (TakesLeastVariance(options)) return cells * kCellNs;
   return patches.size() * kCountNs;
 }
 
 }  // namespace
+
+bool ReadsPatches(const ShootOptions& options) {
+  return TakesLeastVariance(options) || options.method == Method::kPhsHier;
+}
 
 int64_t MinRaysForDensities(const PatchSet& patches, const ShootOptions& options) {
   const PyramidOptions& pyramids = options.pyramids;
@@ -57,8 +65,7 @@ std::vector<double> ErrorWorth(const PatchSet& patches, double metric) {
 DirectionTable::DirectionTable(const PatchSet& patches, const RayScene& scene,
                                const Emitters& emitters, const ShootOptions& options,
                                std::vector<double> hit_worth, const SurfaceTree* tree)
-    : patches_(patches),
-      scene_(scene),
+    : scene_(scene),
       emitters_(emitters),
       tree_(tree),
       options_(options),
@@ -66,13 +73,14 @@ DirectionTable::DirectionTable(const PatchSet& patches, const RayScene& scene,
       min_rays_(MinRaysForDensities(patches, options)),
       sampler_(options.pyramids),
       by_flux_(FromWorth(std::vector<double>(sampler_.fractions().size()))),
+      counts_(!Probes(options) && !TakesLeastVariance(options)),
+      patches_(ReadsPatches(options) ? patches : corners_),
       kept_(tree != nullptr ? tree->place_count() : patches.size()) {
-  const bool probes = options.method == Method::kHs97 || options.method == Method::kHs98;
-  if (probes) return;
-  if (LeastVarianceRule(options)) {
+  if (counts_) {
+    counted_ = CountedPatches(patches, options.pyramids.count_black);
+    if (!ReadsPatches(options)) corners_.corners = patches.corners;
+  } else if (!Probes(options)) {
     targets_ = std::make_unique<TargetTree>(patches, hit_worth_);
-  } else {
-    clusters_ = std::make_unique<ClusterTree>(patches, options.pyramids.count_black);
   }
 }
 
@@ -90,18 +98,27 @@ PatchIndex DirectionTable::PlaceFor(const Visit& visit, double rays_per_m2) cons
   return kNoPatch;
 }
 
+const ClusterTree& DirectionTable::Clusters() const {
+  std::call_once(clusters_once_, [this] {
+    clusters_ = std::make_unique<const ClusterTree>(patches_.corners, counted_);
+  });
+  return *clusters_;
+}
+
+LocalFrame DirectionTable::Frame(PatchIndex place) const {
+  return tree_ != nullptr ? PlaceFrame(patches_, *tree_, place) : PatchFrame(patches_, place);
+}
+
 std::vector<double> DirectionTable::Worth(PatchIndex place) const {
   const HemisphereCells& cells = sampler_.cells();
-  const LocalFrame frame =
-      tree_ != nullptr ? PlaceFrame(patches_, *tree_, place) : PatchFrame(patches_, place);
   if (targets_ != nullptr) {
     const double opening =
         kOpeningShare * std::sqrt(2 * std::numbers::pi / static_cast<double>(cells.size()));
-    return LeastVariance(sampler_.fractions(), targets_->Moments(frame, cells, opening));
+    return LeastVariance(sampler_.fractions(), targets_->Moments(Frame(place), cells, opening));
   }
-  if (clusters_ != nullptr) {
+  if (counts_) {
     const std::vector<int32_t> counts =
-        clusters_->CountPatches(frame, cells, options_.pyramids.use_clusters);
+        Clusters().CountPatches(Frame(place), cells, options_.pyramids.use_clusters);
     return {counts.begin(), counts.end()};
   }
   // hs98: the probing rays are of no seed, so that the densities are those of the scene.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "radiosity/patch/patch_set.h"
@@ -26,12 +27,16 @@ int64_t MinRaysForDensities(const PatchSet& patches, const ShootOptions& options
 // rho_j^2 A_j^(metric - 2), times the mean area to the power that makes it a number.
 std::vector<double> ErrorWorth(const PatchSet& patches, double metric);
 
+// Whether a direction table reads its patch set as long as it lives, and not only while it is made.
+bool ReadsPatches(const ShootOptions& options);
+
 // Any number of threads at once.
 class DirectionTable {
  public:
-  // `scene`, `emitters` and `tree` (null: none) are of `patches`; all must outlive the table.
-  // `hit_worth`: of flux that arrives at each patch, for the rule of least variance; may be empty
-  // for the rule of counts. Requires: UsesPyramids(options.method).
+  // `scene`, `emitters` and `tree` (null: none) are of `patches`; they must outlive the table, the
+  // patches where ReadsPatches(options). `hit_worth`: of flux that arrives at each patch, for the
+  // rule of least variance; may be empty for the rule of counts. Requires:
+  // UsesPyramids(options.method).
   DirectionTable(const PatchSet& patches, const RayScene& scene, const Emitters& emitters,
                  const ShootOptions& options, std::vector<double> hit_worth,
                  const SurfaceTree* tree = nullptr);
@@ -56,8 +61,9 @@ class DirectionTable {
  private:
   Directions Compute(PatchIndex place) const;
   std::vector<double> Worth(PatchIndex place) const;
+  LocalFrame Frame(PatchIndex place) const;
+  const ClusterTree& Clusters() const;
 
-  const PatchSet& patches_;
   const RayScene& scene_;
   const Emitters& emitters_;
   const SurfaceTree* const tree_;
@@ -66,8 +72,14 @@ class DirectionTable {
   const int64_t min_rays_;
   const CellSampler sampler_;
   const Directions by_flux_;
-  std::unique_ptr<const ClusterTree> clusters_;  // for counts
-  std::unique_ptr<const TargetTree> targets_;    // for least variance
+  const bool counts_;          // patches in cells
+  PatchSet corners_;           // of the patches, and nothing else, where that will do
+  const PatchSet& patches_;    // they or `corners_`
+  std::vector<bool> counted_;  // for the clusters, which are made for the first densities: there
+  mutable std::once_flag clusters_once_;  // may be none in large scenes
+  mutable std::unique_ptr<const ClusterTree> clusters_;
+  // For least variance.
+  std::unique_ptr<const TargetTree> targets_;
   // Filled once each; never replaced. Past kCacheBytes densities are computed at every visit.
   mutable std::vector<std::atomic<const Directions*>> kept_;
   mutable std::atomic<int64_t> kept_bytes_ = 0;

@@ -20,9 +20,10 @@ namespace lambert {
 // Any number of threads at once, each with a flight of its own.
 class Launcher {
  public:
-  // `patches`, `scene` and `tree`, which are theirs, must outlive the launcher. With a tree, the
-  // patches of an element share its densities where they have too few rays for their own. Fails
-  // where the options' region is not in the scene. Requires: options.method is not kAuto.
+  // `scene` and `tree` are of `patches` and must outlive the launcher, the patches where
+  // ReadsPatches(options). With a tree, the patches of an element share its densities where they
+  // have too few rays for their own. Fails where the options' region is not in the scene. Requires:
+  // options.method is not kAuto.
   static absl::StatusOr<std::unique_ptr<Launcher>> Create(const PatchSet& patches,
                                                           const ShootOptions& options,
                                                           const RayScene& scene,

@@ -26,26 +26,26 @@ class EmbreeShooter : public Shooter {
   EmbreeShooter(std::shared_ptr<const PatchSet> patches, const ShootOptions& options,
                 std::unique_ptr<RayScene> scene, std::unique_ptr<const SurfaceTree> tree,
                 std::unique_ptr<Launcher> launcher)
-      : patches_(std::move(patches)),
-        watch_(options.method == Method::kPhsAlpha),
+      : watch_(options.method == Method::kPhsAlpha),
         scene_(std::move(scene)),
         tree_(std::move(tree)),
         launcher_(std::move(launcher)),
-        arrivals_(patches_->size()),
-        rests_(tree_ != nullptr ? tree_->place_count() : 0) {
+        arrivals_(patches->size()),
+        rests_(tree_ != nullptr ? tree_->place_count() : 0),
+        patches_(ReadsPatches(options) ? std::move(patches) : nullptr) {
     if (tree_ != nullptr) refinement_.emplace(*patches_, *scene_, *tree_, options.pyramids);
   }
 
   absl::StatusOr<UnitResult> Run(const WorkUnit& unit) const override;
 
  private:
-  std::shared_ptr<const PatchSet> patches_;
   const bool watch_;  // what rays see is part of the result
   std::unique_ptr<RayScene> scene_;
   const std::unique_ptr<const SurfaceTree> tree_;  // null: rays rest where they arrive
   std::unique_ptr<Launcher> launcher_;
   std::optional<const Refinement> refinement_;  // with a tree
   mutable ArrivalsPool arrivals_, rests_;
+  const std::shared_ptr<const PatchSet> patches_;  // null: the launcher reads them no more
 };
 
 absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {

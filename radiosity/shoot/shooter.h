@@ -21,7 +21,8 @@ std::string UnitVersion();
 class Shooter {
  public:
   // Fails with FAILED_PRECONDITION where the processor lacks AVX2, RESOURCE_EXHAUSTED where there
-  // is too little memory, FIELD_INVALID where the method takes fewer patches. Requires:
+  // is too little memory, FIELD_INVALID where the method takes fewer patches. Holds on to `patches`
+  // only where the method reads them while it shoots, and never reads their exitance. Requires:
   // options.method is not kAuto.
   static absl::StatusOr<std::shared_ptr<const Shooter>> Create(
       std::shared_ptr<const PatchSet> patches, const ShootOptions& options);

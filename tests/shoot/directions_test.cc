@@ -45,7 +45,7 @@ std::vector<double> Densities(const CellSpans& spans) {
 std::vector<double> CountedDirectly(const PatchSet& patches, const PyramidOptions& options,
                                     const LocalFrame& frame) {
   const CellSampler sampler(options);
-  const ClusterTree tree(patches, options.count_black);
+  const ClusterTree tree(patches.corners, CountedPatches(patches, options.count_black));
   const std::vector<int32_t> counts =
       tree.CountPatches(frame, sampler.cells(), options.use_clusters);
   return Densities(CellSpans(CellDensities(sampler.fractions(), {counts.begin(), counts.end()},
@@ -99,6 +99,18 @@ TEST(DirectionTable, WithoutATreeOnlyPatchesHaveDirections) {
   const Made made(MakeOffice(1), options);
   EXPECT_EQ(made.table.PlaceFor({3, 100, 0, 100}, 1e9), 3);
   EXPECT_EQ(made.table.PlaceFor({3, 99, 0, 99}, 1e9), kNoPatch);
+}
+
+TEST(DirectionTable, ReadsThePatchesNoMoreWhereItCounts) {
+  ShootOptions options = With(Method::kImportance);
+  EXPECT_TRUE(ReadsPatches(options));
+  options.method = Method::kPhs;
+  EXPECT_FALSE(ReadsPatches(options));
+  Made counted(MakeCornell(2), options);
+  counted.patches = {};
+  const PatchSet again = PatchesOf(MakeCornell(2));
+  EXPECT_EQ(Densities(counted.table.Get(5)->spans),
+            CountedDirectly(again, options.pyramids, PatchFrame(again, 5)));
 }
 
 TEST(DirectionTable, DoesNotDependOnClusters) {
