@@ -68,6 +68,18 @@ struct BareEmbree::Impl {
     rtcCommitScene(built);
     return built;
   }
+
+  template <int kWidth, typename Packet>
+  void Intersect(bool is_robust, std::vector<Packet>& packets,
+                 void (*intersect)(const int*, RTCScene, RTCIntersectContext*, Packet*)) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    const Valid<kWidth> all(kWidth), some(rays - kWidth * (std::ssize(packets) - 1));
+    for (Packet& packet : packets) {
+      const bool last = &packet == &packets.back();
+      intersect((last ? some : all).lane, is_robust ? robust : fast, &context, &packet);
+    }
+  }
 };
 
 BareEmbree::BareEmbree(const PatchSet& patches, const RayScene& scene)
@@ -115,25 +127,11 @@ void BareEmbree::Reset() {
 }
 
 void BareEmbree::Intersect16(bool robust) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCScene scene = robust ? impl_->robust : impl_->fast;
-  const Valid<16> all(16), some(impl_->rays - 16 * (std::ssize(impl_->packets16) - 1));
-  for (RTCRayHit16& packet : impl_->packets16) {
-    const bool last = &packet == &impl_->packets16.back();
-    rtcIntersect16((last ? some : all).lane, scene, &context, &packet);
-  }
+  impl_->Intersect<16>(robust, impl_->packets16, rtcIntersect16);
 }
 
 void BareEmbree::Intersect8(bool robust) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCScene scene = robust ? impl_->robust : impl_->fast;
-  const Valid<8> all(8), some(impl_->rays - 8 * (std::ssize(impl_->packets8) - 1));
-  for (RTCRayHit8& packet : impl_->packets8) {
-    const bool last = &packet == &impl_->packets8.back();
-    rtcIntersect8((last ? some : all).lane, scene, &context, &packet);
-  }
+  impl_->Intersect<8>(robust, impl_->packets8, rtcIntersect8);
 }
 
 int64_t BareEmbree::Hits16() const {

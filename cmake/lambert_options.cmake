@@ -29,7 +29,8 @@ function(lambert_room name)
   target_link_libraries(lambert_${name} PUBLIC lambert_flags ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE})
 endfunction()
 
-# lambert_test(NAME SOURCES ... LIBS ... [LABELS ...]): a GoogleTest program, one ctest entry a test.
+# lambert_test(NAME SOURCES ... LIBS ... [LABELS ...]): a GoogleTest program, one ctest entry a test. Under
+# ctest, rapidcheck draws the same examples each time.
 function(lambert_test name)
   cmake_parse_arguments(TEST "" "" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
@@ -39,5 +40,5 @@ function(lambert_test name)
     set(labels LABELS "${TEST_LABELS}")
   endif()
   gtest_discover_tests(${name} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 300 ${labels})
+    PROPERTIES TIMEOUT 300 ENVIRONMENT "RC_PARAMS=seed=1" ${labels})
 endfunction()

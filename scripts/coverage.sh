@@ -17,7 +17,7 @@ for room in radiosity/*/; do
   tests+=("tests/$room/all")
 done
 mkdir -p "$build" && find "$build" -name '*.gcda' -delete
-ninja -C "$build" -j "$(nproc)" radiosity/all "${tests[@]}" >&2
+ninja -C "$build" -j "$(nproc)" "${tests[@]/#tests/radiosity}" "${tests[@]}" >&2
 
 for program in "${tests[@]}"; do
   find "$build/${program%/all}" -maxdepth 1 -type f -executable -print0

@@ -131,6 +131,7 @@ absl::Status ServerLink::DownloadRest(const std::string& sha256, int64_t size_by
 
 absl::StatusOr<std::string> ServerLink::Download(const std::string& sha256, int64_t size_bytes) {
   std::string bytes;
+  bytes.reserve(static_cast<size_t>(size_bytes));
   absl::Status status;
   for (int attempt = 0; attempt < kDownloadAttempts; ++attempt) {
     if (attempt > 0) absl::SleepFor(absl::Milliseconds(100) * (1 << attempt));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
@@ -46,10 +47,9 @@ absl::StatusOr<std::shared_ptr<const Shooter>> ShooterCache::Get(const std::stri
   return entry->shooter;
 }
 
-absl::StatusOr<std::shared_ptr<const Shooter>> ShooterCache::Make(
-    const std::string& sha256, int64_t size_bytes, const std::string& shoot_options) const {
-  absl::StatusOr<ShootOptions> options = DecodeShootOptions(shoot_options);
-  if (!options.ok()) return options.status();
+// The bytes are gone when this returns: the shooter needs their room.
+absl::StatusOr<PatchSet> ShooterCache::Patches(const std::string& sha256,
+                                               int64_t size_bytes) const {
   absl::StatusOr<std::string> bytes = fetch_(sha256, size_bytes);
   if (!bytes.ok()) return bytes.status();
   if (Sha256Hex(*bytes) != sha256) {
@@ -58,6 +58,15 @@ absl::StatusOr<std::shared_ptr<const Shooter>> ShooterCache::Make(
                       "check the network and the server's data folder"});
   }
   absl::StatusOr<PatchSet> patches = DecodePatchSet(*bytes);
+  if (patches.ok()) patches->exitance_lm_per_m2 = std::vector<Rgb>();  // units say what is shot
+  return patches;
+}
+
+absl::StatusOr<std::shared_ptr<const Shooter>> ShooterCache::Make(
+    const std::string& sha256, int64_t size_bytes, const std::string& shoot_options) const {
+  absl::StatusOr<ShootOptions> options = DecodeShootOptions(shoot_options);
+  if (!options.ok()) return options.status();
+  absl::StatusOr<PatchSet> patches = Patches(sha256, size_bytes);
   if (!patches.ok()) return patches.status();
   return make_(std::make_shared<const PatchSet>(*std::move(patches)), *options);
 }

@@ -39,6 +39,7 @@ class ShooterCache {
     absl::Notification ready;
     absl::StatusOr<std::shared_ptr<const Shooter>> shooter;  // once ready
   };
+  absl::StatusOr<PatchSet> Patches(const std::string& sha256, int64_t size_bytes) const;
   absl::StatusOr<std::shared_ptr<const Shooter>> Make(const std::string& sha256, int64_t size_bytes,
                                                       const std::string& shoot_options) const;
 

@@ -18,6 +18,9 @@ inline Rgb operator*(Rgb a, Rgb b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
 inline Rgb operator*(Rgb a, double s) { return {a.r * s, a.g * s, a.b * s}; }
 inline Rgb operator/(Rgb a, double s) { return {a.r / s, a.g / s, a.b / s}; }
 
+inline Rgb Abs(Rgb a) { return {std::fabs(a.r), std::fabs(a.g), std::fabs(a.b)}; }
+inline double ChannelSum(Rgb a) { return a.r + a.g + a.b; }
+
 // The scalar that error measures use: the plain mean of the channels.
 inline double Mean(Rgb a) { return (a.r + a.g + a.b) / 3; }
 inline bool IsFinite(Rgb a) {

@@ -73,12 +73,15 @@ void AddAnnotations(const Scene& scene, PatchSet* patches) {
   }
 }
 
-absl::Status NoTriangles(int64_t degenerate) {
-  const std::string message =
-      degenerate > 0 ? absl::StrCat("all of its ", degenerate, " triangles are without area")
-                     : "it holds no triangles";
-  return MakeError(absl::StatusCode::kInvalidArgument,
-                   {"NO_TRIANGLES", "scene", message, "add a mesh to the default scene"});
+absl::Status NoTriangles(const PatchBuilder& builder) {
+  std::string message = "it holds no triangles", advice = "add a mesh to the default scene";
+  if (builder.cut() > 0) {
+    message = absl::StrCat("alpha mode MASK cuts all of its ", builder.cut(), " patches away");
+    advice = "lower the alphaCutoff of a material";
+  } else if (builder.degenerate() > 0) {
+    message = absl::StrCat("all of its ", builder.degenerate(), " triangles are without area");
+  }
+  return MakeError(absl::StatusCode::kInvalidArgument, {"NO_TRIANGLES", "scene", message, advice});
 }
 
 }  // namespace
@@ -112,7 +115,7 @@ absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& op
                            [&](const PlacedTriangle& placed) { return builder.Add(placed); });
   if (!status.ok()) return status;
   PatchSet patches = builder.Finish();
-  if (patches.size() == 0) return NoTriangles(builder.degenerate());
+  if (patches.size() == 0) return NoTriangles(builder);
   patches.origin = survey->origin;
   patches.warnings.insert(patches.warnings.begin(), warnings.begin(), warnings.end());
   status = AddLights(scene, &patches);

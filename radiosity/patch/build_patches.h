@@ -20,12 +20,13 @@ struct PatchOptions {
 };
 
 // Splits, transforms (in double, recentred), drops triangles of no area and exact copies of others
-// (counted in warnings ZERO_AREA_PATCHES and DUPLICATE_PATCHES), averages textures over each patch,
-// and sorts. Exitance is pi times the luminance in either emission unit: the unit says how to read
-// the results, and nothing is multiplied by 683 on the way. Reflectance over 1 is clamped with a
-// warning (REFLECTANCE_CLAMPED), over .95 warned of (REFLECTANCE_HIGH); values that are not finite
-// are refused by name. No emitter at all: warning NO_EMITTERS. No triangle left: SceneError with
-// reason NO_TRIANGLES.
+// (counted in warnings ZERO_AREA_PATCHES and DUPLICATE_PATCHES) and patches of which alpha mode
+// MASK leaves less than half (those partly cut are counted in PARTLY_CUT_PATCHES), averages
+// textures over each patch, and sorts. Exitance is pi times the luminance in either emission unit:
+// the unit says how to read the results, and nothing is multiplied by 683 on the way. Reflectance
+// over 1 is clamped with a warning (REFLECTANCE_CLAMPED), over .95 warned of (REFLECTANCE_HIGH);
+// values that are not finite are refused by name. No emitter at all: warning NO_EMITTERS. No
+// triangle left: SceneError with reason NO_TRIANGLES.
 absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& options);
 
 }  // namespace lambert

@@ -18,9 +18,37 @@ namespace {
 constexpr double kTextureSamples = 3e7;
 constexpr double kLeastSamplesPerEdge = 4, kMostSamplesPerEdge = 512;
 
+// A patch is there, whole, or it is not: what alpha mode MASK leaves half of stays.
+constexpr double kLeastCoverage = 0.5;
+
 int SamplesPerEdge(double expected_patches) {
   return static_cast<int>(std::clamp(std::sqrt(kTextureSamples / std::max(1.0, expected_patches)),
                                      kLeastSamplesPerEdge, kMostSamplesPerEdge));
+}
+
+// The texture coordinates of a piece's corners.
+absl::StatusOr<std::array<Uv, 3>> UvOf(const PlacedTriangle& placed, const SplitPiece& piece,
+                                       int uv_set) {
+  const auto& coordinates = placed.primitive->uv[uv_set];
+  if (coordinates.empty()) {
+    return SceneError(Where(placed.source),
+                      absl::StrCat("its material has a texture, but it has no TEXCOORD_", uv_set),
+                      "export texture coordinates, or take the texture off the material");
+  }
+  std::array<Uv, 3> uv;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 w = piece[k].barycentric;
+    for (int axis = 0; axis < 2; ++axis) {
+      uv[k][axis] = w.x * coordinates[placed.vertices[0]][axis] +
+                    w.y * coordinates[placed.vertices[1]][axis] +
+                    w.z * coordinates[placed.vertices[2]][axis];
+      if (!std::isfinite(uv[k][axis])) {
+        return SceneError(Where(placed.source), "a texture coordinate is not finite",
+                          "export the file again");
+      }
+    }
+  }
+  return uv;
 }
 
 }  // namespace
@@ -57,28 +85,19 @@ absl::Status PatchBuilder::Add(const PlacedTriangle& placed) {
 }
 
 absl::StatusOr<Rgb> PatchBuilder::Mean(const PlacedTriangle& placed, const SplitPiece& piece,
-                                       const Texture* texture, int uv_set) const {
+                                       const Texture* texture, int uv_set, int least_alpha) const {
   if (texture == nullptr) return Rgb{1, 1, 1};
-  const auto& coordinates = placed.primitive->uv[uv_set];
-  if (coordinates.empty()) {
-    return SceneError(Where(placed.source),
-                      absl::StrCat("its material has a texture, but it has no TEXCOORD_", uv_set),
-                      "export texture coordinates, or take the texture off the material");
-  }
-  std::array<Uv, 3> uv;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 w = piece[k].barycentric;
-    for (int axis = 0; axis < 2; ++axis) {
-      uv[k][axis] = w.x * coordinates[placed.vertices[0]][axis] +
-                    w.y * coordinates[placed.vertices[1]][axis] +
-                    w.z * coordinates[placed.vertices[2]][axis];
-      if (!std::isfinite(uv[k][axis])) {
-        return SceneError(Where(placed.source), "a texture coordinate is not finite",
-                          "export the file again");
-      }
-    }
-  }
-  return TextureMean(*texture, uv, samples_per_edge_);
+  const absl::StatusOr<std::array<Uv, 3>> uv = UvOf(placed, piece, uv_set);
+  if (!uv.ok()) return uv.status();
+  return TextureMean(*texture, *uv, samples_per_edge_, least_alpha);
+}
+
+absl::StatusOr<double> PatchBuilder::Coverage(const PlacedTriangle& placed, const SplitPiece& piece,
+                                              const PatchMaterial& material) const {
+  if (material.alpha_texture == nullptr) return material.least_alpha <= 255 ? 1 : 0;
+  const absl::StatusOr<std::array<Uv, 3>> uv = UvOf(placed, piece, material.reflectance_uv);
+  if (!uv.ok()) return uv.status();
+  return TextureCoverage(*material.alpha_texture, *uv, samples_per_edge_, material.least_alpha);
 }
 
 absl::Status PatchBuilder::AddPiece(const PlacedTriangle& placed, const SplitPiece& piece) {
@@ -86,13 +105,20 @@ absl::Status PatchBuilder::AddPiece(const PlacedTriangle& placed, const SplitPie
   const double area_m2 = Measure(corners).area_m2;
   if (!(area_m2 > 0)) return absl::OkStatus();
   const PatchMaterial& material = materials_[placed.primitive->material + 1];
+  const absl::StatusOr<double> coverage = Coverage(placed, piece, material);
+  if (!coverage.ok()) return coverage.status();
+  if (*coverage > 0 && *coverage < 1) ++partly_cut_;
+  if (*coverage < kLeastCoverage) {
+    ++cut_;
+    return absl::OkStatus();
+  }
   patches_ += material.two_sided ? 2 : 1;
   if (patches_ > options_.max_patches) return TooManyPatches(options_.max_patches);
-  absl::StatusOr<Rgb> reflectance =
-      Mean(placed, piece, material.reflectance_texture, material.reflectance_uv);
+  absl::StatusOr<Rgb> reflectance = Mean(placed, piece, material.reflectance_texture,
+                                         material.reflectance_uv, material.least_alpha);
   if (!reflectance.ok()) return reflectance.status();
   absl::StatusOr<Rgb> exitance =
-      Mean(placed, piece, material.exitance_texture, material.exitance_uv);
+      Mean(placed, piece, material.exitance_texture, material.exitance_uv, 0);
   if (!exitance.ok()) return exitance.status();
   fronts_.corners.push_back(corners);
   fronts_.area_m2.push_back(area_m2);
@@ -134,6 +160,13 @@ PatchSet PatchBuilder::Finish() {
   if (degenerate_ > 0) {
     sorted.warnings.push_back(
         {"ZERO_AREA_PATCHES", absl::StrCat(degenerate_, " triangle(s) without area left out")});
+  }
+  if (partly_cut_ > 0) {
+    sorted.warnings.push_back(
+        {"PARTLY_CUT_PATCHES",
+         absl::StrCat("alpha mode MASK cuts parts of ", partly_cut_,
+                      " patch(es) away: those cut by more than half are left out, the others are "
+                      "taken as whole; give a smaller --max-edge")});
   }
   if (duplicates > 0) {
     sorted.warnings.push_back(

@@ -26,20 +26,26 @@ class PatchBuilder {
   PatchBuilder(const std::vector<PatchMaterial>& materials, const PatchOptions& options,
                double expected_patches);
 
-  // Splits one triangle and averages its textures. Without area it is only counted. SceneError for
+  // Splits one triangle, averages its textures and leaves out the patches that alpha mode MASK cuts
+  // away by more than half. Without area it is only counted. SceneError for
   // texture coordinates that are missing or not finite; SCENE_TOO_LARGE.
   absl::Status Add(const PlacedTriangle& placed);
 
   // Corners, materials, twins and sources of all patches in Morton order, and warnings
-  // ZERO_AREA_PATCHES and DUPLICATE_PATCHES. The builder is used up.
+  // ZERO_AREA_PATCHES, PARTLY_CUT_PATCHES and DUPLICATE_PATCHES. The builder is used up.
   PatchSet Finish();
 
-  int64_t degenerate() const { return degenerate_; }
+  int64_t degenerate() const { return degenerate_; }  // triangles without area
+  int64_t cut() const { return cut_; }                // patches that alpha mode MASK left out
 
  private:
   absl::Status AddPiece(const PlacedTriangle& placed, const SplitPiece& piece);
+  // Of the texels of at least that alpha.
   absl::StatusOr<Rgb> Mean(const PlacedTriangle& placed, const SplitPiece& piece,
-                           const Texture* texture, int uv_set) const;
+                           const Texture* texture, int uv_set, int least_alpha) const;
+  // The share of a piece that alpha mode MASK leaves.
+  absl::StatusOr<double> Coverage(const PlacedTriangle& placed, const SplitPiece& piece,
+                                  const PatchMaterial& material) const;
   // Copies front `front`, and its back where it is two-sided, to the end of `sorted`.
   void Append(PatchIndex front, PatchSet* sorted) const;
 
@@ -50,6 +56,7 @@ class PatchBuilder {
   PatchSet fronts_;                 // twin: kNoPatch, or 0 where there is a back to make
   int64_t patches_ = 0;             // backs included
   int64_t degenerate_ = 0;
+  int64_t cut_ = 0, partly_cut_ = 0;
 };
 
 }  // namespace lambert

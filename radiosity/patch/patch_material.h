@@ -16,6 +16,10 @@ struct PatchMaterial {
   const Texture* exitance_texture = nullptr;
   int exitance_uv = 0;
   bool two_sided = false;
+  // Texels of less alpha than this are cut away (alpha mode MASK); 0: none, 256: all. Where there
+  // is no texture, alpha is 255.
+  int least_alpha = 0;
+  const Texture* alpha_texture = nullptr;  // with the coordinates of the reflectance
 };
 
 // One for each material of the scene, at index material + 1; index 0 is glTF's default material.

@@ -17,6 +17,17 @@ Vec3 PatchCentroid(const PatchSet& patches, PatchIndex i) {
   return (a + b + c) / 3;
 }
 
+double Diagonal(const PatchSet& patches) {
+  Vec3 low = patches.corners[0][0], high = low;
+  for (const auto& corners : patches.corners) {
+    for (const Vec3& p : corners) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  }
+  return Length(high - low);
+}
+
 std::vector<int32_t> NodesCalled(const std::vector<std::string>& node_names,
                                  const std::string& name) {
   std::vector<int32_t> nodes;

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "radiosity/patch/coplanar_overlap.h"
+#include "radiosity/patch/patch_builder.h"
 
 namespace lambert {
 namespace {
@@ -61,18 +63,6 @@ double DistanceToTriangle(Vec3 p, const std::array<Vec3, 3>& corners) {
       {DistanceToSegment(p, a, b), DistanceToSegment(p, b, c), DistanceToSegment(p, c, a)});
 }
 
-// Length of the diagonal of the bounding box of all patches.
-double Diagonal(const PatchSet& patches) {
-  Vec3 low = patches.corners[0][0], high = low;
-  for (const auto& corners : patches.corners) {
-    for (const Vec3& p : corners) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  }
-  return Length(high - low);
-}
-
 // Whether each point light lies on a patch. Only lights within a patch's extent in x are measured.
 std::vector<bool> FindLightsOnSurfaces(const PatchSet& patches) {
   std::vector<bool> on_surface(patches.point_lights.size());
@@ -108,6 +98,23 @@ void AppendLightsOnSurfaces(PatchSet* patches) {
                     "side is lost; move it off the surface")});
 }
 
+// "node 1, mesh 2, primitive 0, triangle 7 "rug"".
+std::string Named(const PatchSet& patches, PatchIndex i) {
+  const PatchSource& source = patches.source[i];
+  return absl::StrCat(Where(source), " \"", patches.node_names[source.node], "\"");
+}
+
+void AppendCoplanarOverlaps(PatchSet* patches) {
+  const CoplanarOverlaps found = FindCoplanarOverlaps(*patches);
+  if (found.patches == 0) return;
+  patches->warnings.push_back(
+      {"COPLANAR_OVERLAP",
+       absl::StrCat(found.patches, " patch(es) lie on one another in one plane, the first are ",
+                    Named(*patches, found.first), " and ", Named(*patches, found.other),
+                    ": which of them light meets is left to chance; move one off the plane, or "
+                    "delete what is hidden")});
+}
+
 }  // namespace
 
 void AppendPatchWarnings(PatchSet* patches) {
@@ -122,6 +129,7 @@ void AppendPatchWarnings(PatchSet* patches) {
                                           "paint: light will bounce for long")});
   }
   AppendLightsOnSurfaces(patches);
+  AppendCoplanarOverlaps(patches);
   if (IsClosedAndFacesOutward(*patches)) {
     patches->warnings.push_back(
         {"POSSIBLY_INVERTED_NORMALS",

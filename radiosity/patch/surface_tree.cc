@@ -50,7 +50,7 @@ double Trust(int64_t hits_a, int64_t hits_b, double share) {
 // What a range of patches looks like.
 struct SurfaceTree::Extent {
   Box box, normals, centroids;
-  Vec3 normal;  // mean
+  Vec3 normal, centroid;  // means by area
   double area_m2 = 0, least_cosine = 1, thickness_m = 0;
   double radius_m() const { return 0.5 * Length(box.Size()); }
   bool IsFlat() const {
@@ -64,15 +64,18 @@ struct SurfaceTree::Extent {
 
 SurfaceTree::Extent SurfaceTree::Measure(PatchIndex begin, PatchIndex end) const {
   const PatchIndex first = order_[begin];
-  Extent extent{Box(patches_.corners[first][0]), Box(normals_[first]), Box(centroids_[first]), {}};
+  Extent extent{
+      Box(patches_.corners[first][0]), Box(normals_[first]), Box(centroids_[first]), {}, {}};
   for (PatchIndex k = begin; k < end; ++k) {
     const PatchIndex i = order_[k];
     for (const Vec3& corner : patches_.corners[i]) extent.box.Add(corner);
     extent.normals.Add(normals_[i]);
     extent.centroids.Add(centroids_[i]);
     extent.normal = extent.normal + patches_.area_m2[i] * normals_[i];
+    extent.centroid = extent.centroid + patches_.area_m2[i] * centroids_[i];
     extent.area_m2 += patches_.area_m2[i];
   }
+  extent.centroid = extent.centroid / extent.area_m2;
   const double length = Length(extent.normal);
   extent.normal = length > 0 ? extent.normal / length : normals_[first];
   double low = 0, high = 0;
@@ -114,7 +117,8 @@ PatchIndex SurfaceTree::Build(PatchIndex begin, PatchIndex end, int32_t parent) 
   const Extent extent = Measure(begin, end);
   const bool is_element = parent >= 0 || (extent.IsFlat() && extent.FillsItsBox());
   if (is_element) {
-    elements_.push_back({parent, begin, end, extent.area_m2, extent.radius_m()});
+    elements_.push_back(
+        {parent, begin, end, extent.area_m2, extent.radius_m(), extent.centroid, extent.normal});
     parent = static_cast<int32_t>(elements_.size()) - 1;
   }
   // Apart by where they look, by the plane in which they lie, or by where they are.
@@ -140,7 +144,14 @@ PatchIndex SurfaceTree::Build(PatchIndex begin, PatchIndex end, int32_t parent) 
   if (!is_element) return kNoPatch;
   elements_[parent].child[0] = lower;
   elements_[parent].child[1] = upper;
-  return static_cast<PatchIndex>(parent_.size()) + parent;
+  return PlaceOf(parent);
+}
+
+int32_t SurfaceTree::SurfaceOf(PatchIndex place) const {
+  const auto n = static_cast<PatchIndex>(parent_.size());
+  int32_t surface = place < n ? parent_[place] : place - n;
+  while (surface >= 0 && elements_[surface].parent >= 0) surface = elements_[surface].parent;
+  return surface;
 }
 
 std::vector<Rgb> SurfaceTree::PushDown(const Arrived& rested, const Arrived& arrived) const {

@@ -16,6 +16,7 @@ struct Element {
   PatchIndex begin = 0, end = 0;  // its patches, in SurfaceTree::order
   double area_m2 = 0;             // sum over its patches
   double radius_m = 0;            // half the diagonal of its bounding box
+  Vec3 centroid, normal;          // means by area
   PatchIndex child[2] = {};       // places (SurfaceTree)
 };
 
@@ -36,13 +37,19 @@ class SurfaceTree {
 
   const std::vector<Element>& elements() const { return elements_; }
   const std::vector<PatchIndex>& order() const { return order_; }
-  // The smallest element that holds patch i; -1: none does.
-  int32_t ParentOf(PatchIndex i) const { return parent_[i]; }
+  // The smallest element that holds a place beside itself; -1: none does.
+  int32_t ParentOf(PatchIndex place) const {
+    const auto n = static_cast<PatchIndex>(parent_.size());
+    return place < n ? parent_[place] : elements_[place - n].parent;
+  }
 
   // Places: patch i is place i, element e is place patches + e.
-  PatchIndex place_count() const {
-    return static_cast<PatchIndex>(parent_.size() + elements_.size());
+  PatchIndex place_count() const { return PlaceOf(static_cast<int32_t>(elements_.size())); }
+  PatchIndex PlaceOf(int32_t element) const {
+    return static_cast<PatchIndex>(parent_.size()) + element;
   }
+  // The element that is the whole of a place's flat surface; -1: a patch that is of none.
+  int32_t SurfaceOf(PatchIndex place) const;
   // Flux at each patch [lm] once what came to rest at each element is spread over its patches: by
   // area, and where more rays hit one half of an element than chance explains, as they hit. The sum
   // is kept but for rounding. `rested`: by place; `arrived`: the same flux where it hit, by patch.

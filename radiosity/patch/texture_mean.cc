@@ -40,16 +40,11 @@ int SamplesPerEdge(const Texture& texture, const std::array<Uv, 3>& uv, int most
   return static_cast<int>(std::clamp(std::ceil(texels * kSamplesPerTexel), 1.0, 1.0 * most));
 }
 
-}  // namespace
-
-double SrgbToLinear(uint8_t code) {
-  static const std::array<double, 256> table = MakeSrgbTable();
-  return table[code];
-}
-
-Rgb TextureMean(const Texture& texture, const std::array<Uv, 3>& uv, int max_samples_per_edge) {
-  const int n = SamplesPerEdge(texture, uv, max_samples_per_edge);
-  Rgb sum;
+// Calls `visit` with the RGBA codes under each sample of the triangle: n * n of them, which is
+// returned.
+template <typename Visit>
+double ForEachSample(const Texture& texture, const std::array<Uv, 3>& uv, int most, Visit visit) {
+  const int n = SamplesPerEdge(texture, uv, most);
   // The triangle is cut into n * n equal triangles; each is sampled at its centroid, whose weights
   // of corners 1 and 2 are (i + third) / n and (j + third) / n: upright cells have thirds of 1,
   // inverted ones of 2.
@@ -62,12 +57,39 @@ Rgb TextureMean(const Texture& texture, const std::array<Uv, 3>& uv, int max_sam
                                  texture.wrap_u);
         const int y = TexelIndex(w0 * uv[0][1] + w1 * uv[1][1] + w2 * uv[2][1], texture.height,
                                  texture.wrap_v);
-        const uint8_t* texel = &texture.rgba[(size_t{1} * y * texture.width + x) * 4];
-        sum = sum + Rgb{SrgbToLinear(texel[0]), SrgbToLinear(texel[1]), SrgbToLinear(texel[2])};
+        visit(&texture.rgba[(size_t{1} * y * texture.width + x) * 4]);
       }
     }
   }
-  return sum / (1.0 * n * n);
+  return 1.0 * n * n;
+}
+
+}  // namespace
+
+double SrgbToLinear(uint8_t code) {
+  static const std::array<double, 256> table = MakeSrgbTable();
+  return table[code];
+}
+
+Rgb TextureMean(const Texture& texture, const std::array<Uv, 3>& uv, int max_samples_per_edge,
+                int least_alpha) {
+  Rgb sum;
+  int64_t count = 0;
+  ForEachSample(texture, uv, max_samples_per_edge, [&](const uint8_t* texel) {
+    if (texel[3] < least_alpha) return;
+    sum = sum + Rgb{SrgbToLinear(texel[0]), SrgbToLinear(texel[1]), SrgbToLinear(texel[2])};
+    ++count;
+  });
+  return count > 0 ? sum / static_cast<double>(count) : Rgb{};
+}
+
+double TextureCoverage(const Texture& texture, const std::array<Uv, 3>& uv,
+                       int max_samples_per_edge, int least_alpha) {
+  int64_t count = 0;
+  const double samples =
+      ForEachSample(texture, uv, max_samples_per_edge,
+                    [&](const uint8_t* texel) { count += texel[3] >= least_alpha; });
+  return static_cast<double>(count) / samples;
 }
 
 }  // namespace lambert

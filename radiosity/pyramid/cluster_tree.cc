@@ -10,32 +10,39 @@ constexpr int32_t kLeafPatches = 64;
 
 }  // namespace
 
-LocalFrame PatchFrame(const PatchSet& patches, PatchIndex i) {
-  const auto& corner = patches.corners[i];
-  LocalFrame frame;
-  frame.origin = PatchCentroid(patches, i);
-  frame.z = PatchNormal(patches, i);
-  frame.x = Normalized(corner[1] - corner[0]);
-  frame.y = Cross(frame.z, frame.x);
-  return frame;
-}
-
-ClusterTree::ClusterTree(const PatchSet& patches, bool count_black) {
-  std::vector<std::array<Vec3, 3>> corners;
+std::vector<bool> CountedPatches(const PatchSet& patches, bool count_black) {
+  std::vector<bool> counted(patches.size(), true);
   for (PatchIndex i = 0; i < patches.size(); ++i) {
-    if (count_black || Mean(patches.reflectance[i]) > 0) corners.push_back(patches.corners[i]);
+    counted[i] = count_black || Mean(patches.reflectance[i]) > 0;
   }
-  triangles_.resize(corners.size());
-  if (!corners.empty()) Build(corners, 0, static_cast<int32_t>(corners.size()));
+  return counted;
 }
 
-int32_t ClusterTree::Build(const std::vector<std::array<Vec3, 3>>& corners, int32_t begin,
-                           int32_t end) {
+// The k-th of them, in Morton order.
+struct ClusterTree::Counted {
+  const Corners& corners;
+  std::vector<PatchIndex> patches;
+  const std::array<Vec3, 3>& operator[](int32_t k) const { return corners[patches[k]]; }
+};
+
+ClusterTree::ClusterTree(const Corners& corners, const std::vector<bool>& counted) {
+  Counted patches{corners, {}};
+  for (size_t i = 0; i < corners.size(); ++i) {
+    if (counted[i]) patches.patches.push_back(static_cast<PatchIndex>(i));
+  }
+  triangles_.resize(patches.patches.size());
+  if (triangles_.empty()) return;
+  Build(patches, 0, static_cast<int32_t>(triangles_.size()));
+  vertices_.shrink_to_fit();
+  clusters_.shrink_to_fit();
+}
+
+int32_t ClusterTree::Build(const Counted& patches, int32_t begin, int32_t end) {
   const int32_t index = static_cast<int32_t>(clusters_.size());
   clusters_.emplace_back();
-  Vec3 low = corners[begin][0], high = low;
+  Vec3 low = patches[begin][0], high = low;
   for (int32_t i = begin; i < end; ++i) {
-    for (const Vec3& p : corners[i]) {
+    for (const Vec3& p : patches[i]) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
@@ -45,29 +52,29 @@ int32_t ClusterTree::Build(const std::vector<std::array<Vec3, 3>>& corners, int3
   cluster.end = end;
   cluster.center = (low + high) * 0.5;
   for (int32_t i = begin; i < end; ++i) {
-    for (const Vec3& p : corners[i]) {
+    for (const Vec3& p : patches[i]) {
       cluster.radius = std::max(cluster.radius, Length(p - cluster.center));
     }
   }
   if (end - begin > kLeafPatches) {
     const int32_t middle = begin + (end - begin) / 2;
-    cluster.left = Build(corners, begin, middle);
-    cluster.right = Build(corners, middle, end);
+    cluster.left = Build(patches, begin, middle);
+    cluster.right = Build(patches, middle, end);
   } else {
-    FillLeaf(corners, cluster);
+    FillLeaf(patches, cluster);
   }
   clusters_[index] = cluster;
   return index;
 }
 
-void ClusterTree::FillLeaf(const std::vector<std::array<Vec3, 3>>& corners, Cluster& leaf) {
+void ClusterTree::FillLeaf(const Counted& patches, Cluster& leaf) {
   leaf.first_vertex = static_cast<int32_t>(vertices_.size());
   const auto first = static_cast<ptrdiff_t>(leaf.first_vertex);
   for (int32_t i = leaf.begin; i < leaf.end; ++i) {
     for (int k = 0; k < 3; ++k) {
-      auto found = std::find(vertices_.begin() + first, vertices_.end(), corners[i][k]);
+      auto found = std::find(vertices_.begin() + first, vertices_.end(), patches[i][k]);
       triangles_[i][k] = static_cast<uint8_t>(found - vertices_.begin() - first);
-      if (found == vertices_.end()) vertices_.push_back(corners[i][k]);
+      if (found == vertices_.end()) vertices_.push_back(patches[i][k]);
     }
   }
   leaf.vertex_count = static_cast<int32_t>(vertices_.size()) - leaf.first_vertex;

@@ -11,24 +11,19 @@
 
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/pyramid/cells.h"
+#include "radiosity/pyramid/local_frame.h"
 
 namespace lambert {
 
-// A patch's local frame: origin at its centroid, z along its normal.
-struct LocalFrame {
-  Vec3 origin, x, y, z;
-  Vec3 ToLocal(Vec3 point) const {
-    const Vec3 d = point - origin;
-    return {Dot(d, x), Dot(d, y), Dot(d, z)};
-  }
-};
-LocalFrame PatchFrame(const PatchSet& patches, PatchIndex i);
+// Which patches are counted: all, or those that reflect anything (JPS00, section 4).
+std::vector<bool> CountedPatches(const PatchSet& patches, bool count_black);
 
 // Immutable; any number of threads may count at once.
 class ClusterTree {
  public:
-  // `count_black`: false leaves patches of null reflectance out (JPS00, section 4).
-  ClusterTree(const PatchSet& patches, bool count_black);
+  // Of the patches that are counted, one of `counted` for each.
+  using Corners = std::vector<std::array<Vec3, 3>>;
+  ClusterTree(const Corners& corners, const std::vector<bool>& counted);
 
   // n_ip: the patches with at least one vertex in pyramid p, as seen in `frame` (JPS00, section 4).
   // counts[p] for each cell; a patch counts once in each that it touches.
@@ -47,8 +42,9 @@ class ClusterTree {
   };
   using Triangle = std::array<uint8_t, 3>;  // vertex numbers within a leaf
 
-  int32_t Build(const std::vector<std::array<Vec3, 3>>& corners, int32_t begin, int32_t end);
-  void FillLeaf(const std::vector<std::array<Vec3, 3>>& corners, Cluster& leaf);
+  struct Counted;
+  int32_t Build(const Counted& patches, int32_t begin, int32_t end);
+  void FillLeaf(const Counted& patches, Cluster& leaf);
   void CountLeaf(const Cluster& leaf, const LocalFrame& frame, const HemisphereCells& cells,
                  std::vector<int32_t>& counts) const;
 

@@ -15,11 +15,11 @@ struct TextureUse {
   int texture = -1, uv = 0;
 };
 
-// The texture that `info` (a tinygltf texture info) names, if the factor before it shows it.
+// The texture that `info` (a tinygltf texture info) names, if anything of it shows.
 template <typename Info>
-absl::StatusOr<TextureUse> ReadTexture(const Info& info, Rgb factor, const char* what,
+absl::StatusOr<TextureUse> ReadTexture(const Info& info, bool shows, const char* what,
                                        TextureLoader* textures, UnreadFeatures* unread) {
-  if (info.index < 0 || factor == Rgb{}) return TextureUse{};
+  if (info.index < 0 || !shows) return TextureUse{};
   if (info.extensions.count("KHR_texture_transform") > 0) {
     unread->Add("KHR_texture_transform", "texture", "taken without offset, rotation and scale");
   }
@@ -34,9 +34,7 @@ absl::StatusOr<TextureUse> ReadTexture(const Info& info, Rgb factor, const char*
 }
 
 void CountUnread(const tinygltf::Material& gltf, UnreadFeatures* unread) {
-  if (gltf.alphaMode == "MASK" || gltf.alphaMode == "BLEND") {
-    unread->Add("alpha mode " + gltf.alphaMode, "material", "taken as opaque");
-  }
+  if (gltf.alphaMode == "BLEND") unread->Add("alpha mode BLEND", "material", "taken as opaque");
   if (gltf.pbrMetallicRoughness.metallicFactor > 0) {
     unread->Add("metalness", "material", "base colour taken as diffuse reflectance");
   }
@@ -50,8 +48,11 @@ absl::StatusOr<Material> ReadMaterial(const tinygltf::Material& gltf, const std:
   Material material;
   const tinygltf::PbrMetallicRoughness& pbr = gltf.pbrMetallicRoughness;
   material.reflectance = ToRgb(pbr.baseColorFactor);
-  absl::StatusOr<TextureUse> use = ReadTexture(pbr.baseColorTexture, material.reflectance,
-                                               "base colour texture", textures, unread);
+  if (gltf.alphaMode == "MASK") material.alpha_cutoff = gltf.alphaCutoff;
+  material.alpha = pbr.baseColorFactor[3];
+  absl::StatusOr<TextureUse> use =
+      ReadTexture(pbr.baseColorTexture, material.reflectance != Rgb{} || material.alpha_cutoff > 0,
+                  "base colour texture", textures, unread);
   if (!use.ok()) return use.status();
   material.reflectance_texture = use->texture;
   material.reflectance_uv = use->uv;
@@ -60,7 +61,8 @@ absl::StatusOr<Material> ReadMaterial(const tinygltf::Material& gltf, const std:
       gltf.extensions_json_string, "KHR_materials_emissive_strength", "emissiveStrength", 1, where);
   if (!strength.ok()) return strength.status();
   material.luminance = ToRgb(gltf.emissiveFactor) * *strength;
-  use = ReadTexture(gltf.emissiveTexture, material.luminance, "emissive texture", textures, unread);
+  use = ReadTexture(gltf.emissiveTexture, material.luminance != Rgb{}, "emissive texture", textures,
+                    unread);
   if (!use.ok()) return use.status();
   material.luminance_texture = use->texture;
   material.luminance_uv = use->uv;

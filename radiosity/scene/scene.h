@@ -30,6 +30,10 @@ struct Material {
   int luminance_texture = -1;
   int luminance_uv = 0;
   bool two_sided = false;
+  // Alpha mode MASK: where alpha times that of the reflectance texture is under the cutoff, there
+  // is no surface. 0: nothing is cut.
+  double alpha_cutoff = 0;
+  double alpha = 1;  // baseColorFactor
 };
 
 struct Primitive {

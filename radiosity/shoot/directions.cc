@@ -14,8 +14,12 @@ constexpr int64_t kCacheBytes = int64_t{256} << 20;
 // Angle [rad] under which targets are taken as points: this share of a cell's width.
 constexpr double kOpeningShare = 0.6;
 
-bool LeastVarianceRule(const ShootOptions& options) {
+bool TakesLeastVariance(const ShootOptions& options) {
   return options.pyramids.rule == DensityRule::kVariance || options.method == Method::kImportance;
+}
+
+bool Probes(const ShootOptions& options) {
+  return options.method == Method::kHs97 || options.method == Method::kHs98;
 }
 
 // Measured (docs/benchmarks.md): counting takes 8 to 13 ns a patch of the scene, least variance 1.0
@@ -24,15 +28,18 @@ double DensityNs(const PatchSet& patches, const ShootOptions& options) {
   constexpr double kCountNs = 11, kCellNs = 1500;
   const double cells = options.pyramids.CellCount();
   if (options.method == Method::kHs98) return cells * options.pyramids.probes * kRayNs;
-  if (LeastVarianceRule(options)) return cells * kCellNs;
+  if (TakesLeastVariance(options)) return cells * kCellNs;
   return patches.size() * kCountNs;
 }
 
 }  // namespace
 
 bool CountsPatches(const ShootOptions& options) {
-  return UsesPyramids(options.method) && !LeastVarianceRule(options) &&
-         options.method != Method::kHs97 && options.method != Method::kHs98;
+  return UsesPyramids(options.method) && !Probes(options) && !TakesLeastVariance(options);
+}
+
+bool ReadsPatches(const ShootOptions& options) {
+  return TakesLeastVariance(options) || options.method == Method::kPhsHier;
 }
 
 int64_t MinRaysForDensities(const PatchSet& patches, const ShootOptions& options) {
@@ -61,20 +68,22 @@ std::vector<double> ErrorWorth(const PatchSet& patches, double metric) {
 
 DirectionTable::DirectionTable(const PatchSet& patches, const RayScene& scene,
                                const Emitters& emitters, const ShootOptions& options,
-                               std::vector<double> hit_worth)
-    : patches_(patches),
-      scene_(scene),
+                               std::vector<double> hit_worth, const SurfaceTree* tree)
+    : scene_(scene),
       emitters_(emitters),
+      tree_(tree),
       options_(options),
       hit_worth_(std::move(hit_worth)),
       min_rays_(MinRaysForDensities(patches, options)),
       sampler_(options.pyramids),
       by_flux_(FromWorth(std::vector<double>(sampler_.fractions().size()))),
-      kept_(patches.size()) {
-  const bool probes = options.method == Method::kHs97 || options.method == Method::kHs98;
-  if (CountsPatches(options)) {
-    clusters_ = std::make_unique<ClusterTree>(patches, options.parts.with.Has(Part::kBlack));
-  } else if (!probes) {
+      counts_(CountsPatches(options)),
+      patches_(ReadsPatches(options) ? patches : corners_),
+      kept_(tree != nullptr ? tree->place_count() : patches.size()) {
+  if (counts_) {
+    counted_ = CountedPatches(patches, options.parts.with.Has(Part::kBlack));
+    if (!ReadsPatches(options)) corners_.corners = patches.corners;
+  } else if (!Probes(options)) {
     targets_ = std::make_unique<TargetTree>(patches, hit_worth_);
   }
 }
@@ -83,22 +92,42 @@ DirectionTable::~DirectionTable() {
   for (auto& slot : kept_) delete slot.load();
 }
 
-std::vector<double> DirectionTable::Worth(PatchIndex patch) const {
+PatchIndex DirectionTable::PlaceFor(const Visit& visit, double rays_per_m2) const {
+  if (visit.ray_count >= min_rays_) return visit.emitter;
+  if (tree_ == nullptr) return kNoPatch;
+  for (int32_t e = tree_->ParentOf(visit.emitter); e >= 0; e = tree_->elements()[e].parent) {
+    const double rays = rays_per_m2 * tree_->elements()[e].area_m2;
+    if (rays >= static_cast<double>(min_rays_)) return tree_->PlaceOf(e);
+  }
+  return kNoPatch;
+}
+
+const ClusterTree& DirectionTable::Clusters() const {
+  std::call_once(clusters_once_, [this] {
+    clusters_ = std::make_unique<const ClusterTree>(patches_.corners, counted_);
+  });
+  return *clusters_;
+}
+
+LocalFrame DirectionTable::Frame(PatchIndex place) const {
+  return tree_ != nullptr ? PlaceFrame(patches_, *tree_, place) : PatchFrame(patches_, place);
+}
+
+std::vector<double> DirectionTable::Worth(PatchIndex place) const {
   const HemisphereCells& cells = sampler_.cells();
   if (targets_ != nullptr) {
     const double opening =
         kOpeningShare * std::sqrt(2 * std::numbers::pi / static_cast<double>(cells.size()));
-    return LeastVariance(sampler_.fractions(),
-                         targets_->Moments(PatchFrame(patches_, patch), cells, opening));
+    return LeastVariance(sampler_.fractions(), targets_->Moments(Frame(place), cells, opening));
   }
-  if (clusters_ != nullptr) {
-    const std::vector<int32_t> counts = clusters_->CountPatches(
-        PatchFrame(patches_, patch), cells, !options_.parts.without.Has(Part::kClusters));
+  if (counts_) {
+    const std::vector<int32_t> counts =
+        Clusters().CountPatches(Frame(place), cells, !options_.parts.without.Has(Part::kClusters));
     return {counts.begin(), counts.end()};
   }
   // hs98: the probing rays are of no seed, so that the densities are those of the scene.
-  const RandomStream stream{0, static_cast<uint32_t>(patch), 0, 0};
-  return ProbeWorth(sampler_, scene_, emitters_, patch, stream, options_.pyramids.probes,
+  const RandomStream stream{0, static_cast<uint32_t>(place), 0, 0};
+  return ProbeWorth(sampler_, scene_, emitters_, place, stream, options_.pyramids.probes,
                     {options_.pyramids.rule, &hit_worth_});
 }
 
@@ -108,8 +137,8 @@ Directions DirectionTable::FromWorth(const std::vector<double>& worth) const {
           {}};
 }
 
-Directions DirectionTable::Compute(PatchIndex patch) const {
-  const std::vector<double> worth = Worth(patch);
+Directions DirectionTable::Compute(PatchIndex place) const {
+  const std::vector<double> worth = Worth(place);
   if (options_.method != Method::kPhsAdaptive) return FromWorth(worth);
   AdaptivePyramids split =
       SplitWhereWorthIs(sampler_.hemisphere(), worth, options_.pyramids.leaves);
@@ -122,14 +151,14 @@ Directions DirectionTable::Compute(PatchIndex patch) const {
           std::move(split.pyramids)};
 }
 
-std::shared_ptr<const Directions> DirectionTable::Get(PatchIndex patch) const {
+std::shared_ptr<const Directions> DirectionTable::Get(PatchIndex place) const {
   // Without an owner: no count to be shared by threads.
   const auto lent = [](const Directions* kept) {
     return std::shared_ptr<const Directions>(std::shared_ptr<void>(), kept);
   };
-  std::atomic<const Directions*>& slot = kept_[patch];
+  std::atomic<const Directions*>& slot = kept_[place];
   if (const Directions* kept = slot.load(std::memory_order_acquire)) return lent(kept);
-  auto directions = std::make_unique<const Directions>(Compute(patch));
+  auto directions = std::make_unique<const Directions>(Compute(place));
   const auto bytes = static_cast<int64_t>(directions->spans.size() * sizeof(uint32_t) +
                                           directions->pyramids.size() * sizeof(void*));
   if (kept_bytes_.fetch_add(bytes) + bytes > kCacheBytes) return directions;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "radiosity/pyramid/local_frame.h"
+
 namespace lambert {
 namespace {
 
@@ -107,17 +109,18 @@ void Copy(Vec3 from, float to[3]) {
 
 }  // namespace
 
-Emitters::Emitters(const PatchSet& patches, const RayScene& scene) {
+Emitters::Emitters(const PatchSet& patches, const RayScene& scene, const SurfaceTree* tree) {
   frames_.reserve(patches.size());
-  for (const auto& corner : patches.corners) {
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    const auto& corner = patches.corners[i];
     EmitterFrame& frame = frames_.emplace_back();
     Copy(scene.ToTrace(corner[0]), frame.corner);
-    // In double: the cross product of two short edges would underflow in float.
-    const Vec3 edge1 = corner[1] - corner[0], edge2 = corner[2] - corner[0];
-    Copy(edge1 * scene.scale(), frame.edge1);
-    Copy(edge2 * scene.scale(), frame.edge2);
-    Copy(Normalized(edge1), frame.x);
-    Copy(Normalized(Cross(edge1, edge2)), frame.z);
+    Copy((corner[1] - corner[0]) * scene.scale(), frame.edge1);
+    Copy((corner[2] - corner[0]) * scene.scale(), frame.edge2);
+    const LocalFrame local =
+        tree != nullptr ? PlaceFrame(patches, *tree, i) : PatchFrame(patches, i);
+    Copy(local.x, frame.x);
+    Copy(local.z, frame.z);
   }
   for (const PointLight& light : patches.point_lights) {
     Copy(scene.ToTrace(light.position), point_lights_.emplace_back().data());

@@ -6,6 +6,7 @@
 
 #include "radiosity/core/lanes.h"
 #include "radiosity/patch/patch_set.h"
+#include "radiosity/patch/surface_tree.h"
 #include "radiosity/pyramid/spherical_triangle.h"
 #include "radiosity/shoot/ray_numbers.h"
 #include "radiosity/trace/ray_batch.h"
@@ -28,7 +29,8 @@ struct EmitterFrame8 {
 // The frames of all patches; point lights have a position only. Immutable.
 class Emitters {
  public:
-  Emitters(const PatchSet& patches, const RayScene& scene);
+  // `tree` of the patches, or null: whose frames they are (local_frame.h).
+  Emitters(const PatchSet& patches, const RayScene& scene, const SurfaceTree* tree = nullptr);
 
   PatchIndex patch_count() const { return static_cast<PatchIndex>(frames_.size()); }
   PatchIndex size() const { return patch_count() + static_cast<PatchIndex>(point_lights_.size()); }

@@ -18,7 +18,7 @@ namespace {
 
 using Flux = std::vector<double>;  // quanta of one channel
 
-constexpr double kMostQuanta = 4.6e18;  // of all that arrives: under 2^62
+constexpr double kMostQuanta = 4.6e18;  // of all that is emitted, or arrives: under 2^62
 
 absl::Status BadUnit(const std::string& what) {
   return MakeError(absl::StatusCode::kInvalidArgument,
@@ -66,6 +66,7 @@ absl::StatusOr<std::array<Flux, 3>> ExactShooter::Emitted(const WorkUnit& unit) 
   const size_t emitters = patches_->corners.size() + patches_->point_lights.size();
   std::array<Flux, 3> emitted;
   emitted.fill(Flux(emitters));
+  Rgb total;
   for (const Visit& visit : unit.visits) {
     const bool is_whole = visit.ray_begin == 0 && visit.ray_end == visit.ray_count;
     if (visit.emitter < 0 || static_cast<size_t>(visit.emitter) >= emitters || !is_whole ||
@@ -74,9 +75,13 @@ absl::StatusOr<std::array<Flux, 3>> ExactShooter::Emitted(const WorkUnit& unit) 
                      " is out of range or not whole");
     }
     for (int c = 0; c < 3; ++c) {
-      emitted[c][visit.emitter] += static_cast<double>(visit.quanta[c % unit.channels]);
+      const auto quanta = static_cast<double>(visit.quanta[c % unit.channels]);
+      emitted[c][visit.emitter] += quanta;
+      total[c] += quanta;
     }
   }
+  if (!(std::max({total.r, total.g, total.b}) < kMostQuanta))
+    return BadUnit("its quanta are too many");
   return emitted;
 }
 

@@ -12,17 +12,33 @@
 #include "radiosity/shoot/probe.h"
 
 namespace lambert {
+namespace {
+
+// Whether what the visits shoot fits into its integers.
+bool HasRoom(const WorkUnit& unit) {
+  Quanta left{kMaxUnitQuanta, kMaxUnitQuanta, kMaxUnitQuanta};
+  for (const Visit& visit : unit.visits) {
+    for (int c = 0; c < 3; ++c) {
+      if (visit.quanta[c] < 0 || visit.quanta[c] > left[c]) return false;
+      left[c] -= visit.quanta[c];
+    }
+  }
+  return true;
+}
+
+}  // namespace
 
 absl::StatusOr<std::unique_ptr<Launcher>> Launcher::Create(const PatchSet& patches,
                                                            const ShootOptions& options,
-                                                           const RayScene& scene) {
-  std::unique_ptr<Launcher> launcher(new Launcher(patches, options, scene));
+                                                           const RayScene& scene,
+                                                           const SurfaceTree* tree) {
+  std::unique_ptr<Launcher> launcher(new Launcher(patches, options, scene, tree));
   if (!UsesPyramids(options.method) || options.parts.without.Has(Part::kPyramids)) return launcher;
   absl::StatusOr<std::vector<double>> worth =
       HitWorth(patches, scene, launcher->emitters_, options);
   if (!worth.ok()) return worth.status();
   launcher->directions_ = std::make_unique<DirectionTable>(patches, scene, launcher->emitters_,
-                                                           options, *std::move(worth));
+                                                           options, *std::move(worth), tree);
   return launcher;
 }
 
@@ -56,6 +72,12 @@ class Launcher::Offsets {
 constexpr size_t kVisitsAhead = 16;  // tracing pushes them out of the cache: fetch them early
 
 absl::Status Launcher::Launch(const WorkUnit& unit, Flight& flight) const {
+  if (!HasRoom(unit)) {
+    return MakeError(
+        absl::StatusCode::kInvalidArgument,
+        {"FIELD_INVALID", "work unit", "its quanta are negative or too many",
+         "send units that hold at most " + std::to_string(kMaxUnitQuanta) + " quanta"});
+  }
   if (unit.pass >= 1u << 16) {
     return MakeError(absl::StatusCode::kInvalidArgument,
                      {"FIELD_INVALID", "work unit", "pass is 65536 or more", "use fewer passes"});
@@ -73,20 +95,21 @@ absl::Status Launcher::Launch(const WorkUnit& unit, Flight& flight) const {
     if (!IsPossible(visit)) {
       return MakeError(absl::StatusCode::kInvalidArgument,
                        {"FIELD_INVALID", "work unit, emitter " + std::to_string(visit.emitter),
-                        "its rays or quanta are out of range", "send units of this patch set"});
+                        "its rays are out of range", "send units of this patch set"});
     }
     flight.Begin(visit);
+    const PatchIndex place = PlaceFor(unit, visit);
     if (emitters_.IsPointLight(visit.emitter)) {
       volley.Finish();
       ShootSphere(visit, stream, flight);
-    } else if (!IsDivided(visit)) {
+    } else if (place == kNoPatch) {
       volley.ShootCosine(visit);
     } else if (options_.method == Method::kHs97) {
       const uint32_t probes = ProbingStage(visit).count;
       ShootFollowing(visit, unread.first(probes), offsets.Of(k, 1), volley);
       unread.remove_prefix(probes);
     } else {
-      ShootDivided(visit, offsets.Of(k, 0), volley);
+      ShootDivided(visit, place, offsets.Of(k, 0), volley);
     }
   }
   volley.Finish();
@@ -106,10 +129,11 @@ void Launcher::ShootSphere(const Visit& visit, RandomStream stream, Flight& flig
   }
 }
 
-void Launcher::ShootDivided(const Visit& visit, uint32_t offset, Volley& volley) const {
+void Launcher::ShootDivided(const Visit& visit, PatchIndex place, uint32_t offset,
+                            Volley& volley) const {
   const Stage all{0, visit.ray_count, visit.quanta};
   if (visit.seen.empty()) {
-    ShootStage(visit, all, *directions_->Get(visit.emitter), offset, volley);
+    ShootStage(visit, all, *directions_->Get(place), offset, volley);
   } else {
     ShootStage(visit, all, directions_->FromWorth({visit.seen.begin(), visit.seen.end()}), offset,
                volley);
@@ -138,7 +162,7 @@ std::vector<CellHit> Launcher::ShootProbes(const WorkUnit& unit, Offsets& offset
   flight.RecordHits(&hits);
   for (size_t k = 0; k < unit.visits.size(); ++k) {
     const Visit& visit = unit.visits[k];
-    if (!IsPossible(visit) || !IsDivided(visit)) continue;
+    if (!IsPossible(visit) || PlaceFor(unit, visit) == kNoPatch) continue;
     ShootStage(visit, ProbingStage(visit), directions_->by_flux(), offsets.Of(k, 0), volley);
   }
   volley.Finish();

@@ -20,15 +20,19 @@ namespace lambert {
 // Any number of threads at once, each with a flight of its own.
 class Launcher {
  public:
-  // `patches` and `scene`, which is theirs, must outlive the launcher. Fails where the options'
-  // region is not in the scene. Requires: options.method is not kAuto.
+  // `scene` and `tree` are of `patches` and must outlive the launcher, the patches where
+  // ReadsPatches(options). With a tree, the patches of an element share its densities where they
+  // have too few rays for their own. Fails where the options' region is not in the scene. Requires:
+  // options.method is not kAuto.
   static absl::StatusOr<std::unique_ptr<Launcher>> Create(const PatchSet& patches,
                                                           const ShootOptions& options,
-                                                          const RayScene& scene);
+                                                          const RayScene& scene,
+                                                          const SurfaceTree* tree = nullptr);
 
   // Appends the rays of all visits to `flight`, which lands whenever it is full; the last ones stay
-  // in its batch. INVALID_ARGUMENT for a visit that names an emitter, rays or quanta that cannot
-  // be, or a pass over 65535; rays of visits before it may have been launched.
+  // in its batch. INVALID_ARGUMENT for quanta under 0 or over kMaxUnitQuanta in all, a pass over
+  // 65535, or a visit that names an emitter or rays that cannot be; rays of visits before it may
+  // have been launched.
   absl::Status Launch(const WorkUnit& unit, Flight& flight) const;
 
  private:
@@ -39,20 +43,21 @@ class Launcher {
     bool probing = false;  // all are shot; those that are not of the visit's range only look
   };
 
-  Launcher(const PatchSet& patches, const ShootOptions& options, const RayScene& scene)
-      : options_(options), scene_(scene), emitters_(patches, scene) {}
+  Launcher(const PatchSet& patches, const ShootOptions& options, const RayScene& scene,
+           const SurfaceTree* tree)
+      : options_(options), scene_(scene), emitters_(patches, scene, tree) {}
   class Offsets;
   bool IsPossible(const Visit& visit) const {
     const bool seen_fits =
         visit.seen.empty() ||
         (directions_ != nullptr && visit.seen.size() == directions_->sampler().fractions().size());
     return seen_fits && visit.emitter >= 0 && visit.emitter < emitters_.size() &&
-           visit.ray_begin <= visit.ray_end && visit.ray_end <= visit.ray_count &&
-           (visit.quanta[0] | visit.quanta[1] | visit.quanta[2]) >= 0;
+           visit.ray_begin <= visit.ray_end && visit.ray_end <= visit.ray_count;
   }
-  bool IsDivided(const Visit& visit) const {
-    return directions_ != nullptr && !emitters_.IsPointLight(visit.emitter) &&
-           visit.ray_count >= directions_->min_rays();
+  // Whose directions the rays of a visit follow (DirectionTable::PlaceFor); kNoPatch: all the same.
+  PatchIndex PlaceFor(const WorkUnit& unit, const Visit& visit) const {
+    if (directions_ == nullptr || emitters_.IsPointLight(visit.emitter)) return kNoPatch;
+    return directions_->PlaceFor(visit, unit.rays_per_m2);
   }
   Stage ProbingStage(const Visit& visit) const;
   void ShootSphere(const Visit& visit, RandomStream stream, Flight& flight) const;
@@ -60,7 +65,7 @@ class Launcher {
                                    Flight& flight) const;
   void ShootFollowing(const Visit& visit, absl::Span<const CellHit> seen, uint32_t offset,
                       Volley& volley) const;
-  void ShootDivided(const Visit& visit, uint32_t offset, Volley& volley) const;
+  void ShootDivided(const Visit& visit, PatchIndex place, uint32_t offset, Volley& volley) const;
   void ShootStage(const Visit& visit, const Stage& stage, const Directions& directions,
                   uint32_t offset, Volley& volley) const;
 

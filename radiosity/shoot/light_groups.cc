@@ -12,12 +12,17 @@ namespace {
 constexpr int64_t kRays = 1 << 20;
 constexpr int64_t kMinRaysOfPatch = 16, kMaxRaysOfPatch = RayBatch::kCapacity;
 
+int64_t RaysOfPatch(PatchIndex patches) {
+  return std::clamp(kRays / std::max<int64_t>(1, patches), kMinRaysOfPatch, kMaxRaysOfPatch);
+}
+
 }  // namespace
+
+int64_t LightGroupRays(PatchIndex patches) { return patches * RaysOfPatch(patches); }
 
 std::vector<int32_t> FindLightGroups(const PatchSet& patches, const RayScene& scene) {
   const PatchIndex count = patches.size();
-  const auto rays = static_cast<uint32_t>(
-      std::clamp(kRays / std::max<int64_t>(1, count), kMinRaysOfPatch, kMaxRaysOfPatch));
+  const auto rays = static_cast<uint32_t>(RaysOfPatch(count));
   const Emitters emitters(patches, scene);
   DisjointSets groups(count);
   auto batch = std::make_unique<RayBatch>();

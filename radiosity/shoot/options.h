@@ -75,6 +75,7 @@ struct PyramidOptions {
   // phs-hier: rays of a step from one element to another, at most (refinement.h).
   double hier_flux = 0.05;  // >= 0; 0: every ray arrives at its patch
   double hier_size = 0.3;   // greatest radius of an element over the length of a ray to it, >= 0
+  bool hier_densities = false;  // patches of few rays share the densities of an element
   // Rays in one visit from which a patch's densities are computed; fewer: cosine rays.
   // 0: chosen so that densities stay under a tenth of the run's time (docs/methods.md).
   int64_t min_rays = 0;

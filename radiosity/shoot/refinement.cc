@@ -22,14 +22,12 @@ float Dot3(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1
 
 }  // namespace
 
-Refinement::Refinement(const PatchSet& patches, const RayScene& scene,
+Refinement::Refinement(const PatchSet& patches, const RayScene& scene, const SurfaceTree& tree,
                        const PyramidOptions& options)
     : flux_(static_cast<float>(options.hier_flux)),
       size_(static_cast<float>(options.hier_size)),
       per_area_(1 / (scene.scale() * scene.scale())),
       leaves_(patches.size()) {
-  const SurfaceTree tree(patches);
-  place_count_ = tree.place_count();
   const double scale = scene.scale(), area_scale = scale * scale;
   std::vector<float> surface;  // of each element
   for (const Element& element : tree.elements()) {

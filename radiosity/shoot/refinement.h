@@ -25,10 +25,10 @@ namespace lambert {
 // Immutable; any number of threads at once.
 class Refinement {
  public:
-  // `scene` is of `patches`; both are only read here.
-  Refinement(const PatchSet& patches, const RayScene& scene, const PyramidOptions& options);
+  // `scene` and `tree` are of `patches`; all are only read here.
+  Refinement(const PatchSet& patches, const RayScene& scene, const SurfaceTree& tree,
+             const PyramidOptions& options);
 
-  PatchIndex place_count() const { return place_count_; }
   // Announces that a patch will be asked for.
   void Prefetch(PatchIndex patch) const { __builtin_prefetch(&leaves_[patch]); }
   // A place of SurfaceTree for ray `slot` of the batch, which hit a patch. `unit_rays_per_m2`: of
@@ -52,7 +52,6 @@ class Refinement {
 
   const float flux_, size_;
   const double per_area_;  // square metres in trace coordinates, inverse
-  PatchIndex place_count_ = 0;
   std::vector<Leaf> leaves_;
   std::vector<Node> nodes_;
 };

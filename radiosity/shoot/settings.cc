@@ -122,6 +122,8 @@ std::vector<ShootSetting> MakeSettings() {
       NumberSetting<&P::hier_size>(
           "phs-hier-size", "F",
           "phs-hier: radius of an element over the length of a ray to it, at most (0.3)"),
+      FlagSetting<&P::hier_densities>(
+          "phs-hier-densities", "phs-hier: patches of few rays share an element's densities (no)"),
       ChoiceSetting<kRules>(
           "phs-rule", "count|variance",
           "densities from the count of patches (the paper), or of least variance (count)",

@@ -2,6 +2,7 @@
 
 #include <gnu/libc-version.h>
 
+#include <optional>
 #include <utility>
 
 #include "radiosity/core/error.h"
@@ -23,28 +24,30 @@ constexpr char kCodeVersion[] = "shoot-6";
 class EmbreeShooter : public Shooter {
  public:
   EmbreeShooter(std::shared_ptr<const PatchSet> patches, const ShootOptions& options,
-                std::unique_ptr<RayScene> scene, std::unique_ptr<Launcher> launcher)
-      : patches_(std::move(patches)),
-        watch_(options.method == Method::kPhsAlpha),
+                std::unique_ptr<RayScene> scene, std::unique_ptr<const SurfaceTree> tree,
+                std::unique_ptr<Launcher> launcher)
+      : watch_(options.method == Method::kPhsAlpha),
         channels_(options.parts.without.Has(Part::kColor) ? kGrayChannels : kColorChannels),
         scene_(std::move(scene)),
+        tree_(std::move(tree)),
         launcher_(std::move(launcher)),
-        refinement_(options.method == Method::kPhsHier
-                        ? std::make_unique<const Refinement>(*patches_, *scene_, options.pyramids)
-                        : nullptr),
-        arrivals_(patches_->size(), channels_),
-        rests_(refinement_ != nullptr ? refinement_->place_count() : 0, channels_) {}
+        arrivals_(patches->size(), channels_),
+        rests_(tree_ != nullptr ? tree_->place_count() : 0, channels_),
+        patches_(ReadsPatches(options) ? std::move(patches) : nullptr) {
+    if (tree_ != nullptr) refinement_.emplace(*patches_, *scene_, *tree_, options.pyramids);
+  }
 
   absl::StatusOr<UnitResult> Run(const WorkUnit& unit) const override;
 
  private:
-  std::shared_ptr<const PatchSet> patches_;
   const bool watch_;    // what rays see is part of the result
   const int channels_;  // of its units
   std::unique_ptr<RayScene> scene_;
+  const std::unique_ptr<const SurfaceTree> tree_;  // null: rays rest where they arrive
   std::unique_ptr<Launcher> launcher_;
-  const std::unique_ptr<const Refinement> refinement_;  // null: rays rest where they arrive
+  std::optional<const Refinement> refinement_;  // with a tree
   mutable ArrivalsPool arrivals_, rests_;
+  const std::shared_ptr<const PatchSet> patches_;  // null: the launcher reads them no more
 };
 
 absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
@@ -60,7 +63,7 @@ absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
   std::unique_ptr<Arrivals> arrivals = arrivals_.Borrow();
   auto flight = std::make_unique<Flight>(*scene_, *arrivals, result, watch_);
   std::unique_ptr<Arrivals> rests;
-  if (refinement_ != nullptr) {
+  if (refinement_) {
     rests = rests_.Borrow();
     flight->Refine(*refinement_, unit.rays_per_m2, *rests);
   }
@@ -92,10 +95,13 @@ absl::StatusOr<std::shared_ptr<const Shooter>> Shooter::Create(
   }
   absl::StatusOr<std::unique_ptr<RayScene>> scene = RayScene::Create(*patches);
   if (!scene.ok()) return scene.status();
-  absl::StatusOr<std::unique_ptr<Launcher>> launcher = Launcher::Create(*patches, options, **scene);
+  std::unique_ptr<const SurfaceTree> tree;
+  if (options.method == Method::kPhsHier) tree = std::make_unique<const SurfaceTree>(*patches);
+  absl::StatusOr<std::unique_ptr<Launcher>> launcher = Launcher::Create(
+      *patches, options, **scene, options.pyramids.hier_densities ? tree.get() : nullptr);
   if (!launcher.ok()) return launcher.status();
   return std::make_shared<const EmbreeShooter>(std::move(patches), options, *std::move(scene),
-                                               *std::move(launcher));
+                                               std::move(tree), *std::move(launcher));
 }
 
 }  // namespace lambert

@@ -21,14 +21,16 @@ std::string UnitVersion();
 class Shooter {
  public:
   // Fails with FAILED_PRECONDITION where the processor lacks AVX2, RESOURCE_EXHAUSTED where there
-  // is too little memory, FIELD_INVALID where the method takes fewer patches. Requires:
+  // is too little memory, FIELD_INVALID where the method takes fewer patches. Holds on to `patches`
+  // only where the method reads them while it shoots, and never reads their exitance. Requires:
   // options.method is not kAuto.
   static absl::StatusOr<std::shared_ptr<const Shooter>> Create(
       std::shared_ptr<const PatchSet> patches, const ShootOptions& options);
   virtual ~Shooter() = default;
 
   // The result depends only on the unit, the patch set and the options: bit for bit.
-  // INVALID_ARGUMENT for a unit that names an emitter or a range of rays that does not exist.
+  // INVALID_ARGUMENT for a unit that names an emitter or a range of rays that does not exist, or
+  // that holds negative quanta or too many (kMaxUnitQuanta; with `exact`, 4.6e18).
   virtual absl::StatusOr<UnitResult> Run(const WorkUnit& unit) const = 0;
 };
 

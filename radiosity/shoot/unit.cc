@@ -56,8 +56,13 @@ absl::Status Corrupt(const std::string& what, const std::string& why) {
                    {"RESULT_INVALID", what, why, "use programs of one version"});
 }
 
+// Modulo 2^64: defined for any numbers.
+int64_t Sum(int64_t a, int64_t b) {
+  return static_cast<int64_t>(static_cast<uint64_t>(a) + static_cast<uint64_t>(b));
+}
+
 void Add(const Quanta& from, Quanta& into) {
-  for (int c = 0; c < 3; ++c) into[c] += from[c];
+  for (int c = 0; c < 3; ++c) into[c] = Sum(into[c], from[c]);
 }
 
 // Two lists in the order of patches as one.
@@ -70,7 +75,8 @@ std::vector<Deposit> Merge(const std::vector<Deposit>& a, const std::vector<Depo
       merged.push_back(x->patch < y->patch ? *x++ : *y++);
       continue;
     }
-    merged.push_back({x->r + y->r, x->g + y->g, x->b + y->b, x->hits + y->hits, x->patch});
+    merged.push_back(
+        {Sum(x->r, y->r), Sum(x->g, y->g), Sum(x->b, y->b), Sum(x->hits, y->hits), x->patch});
     ++x;
     ++y;
   }
@@ -114,14 +120,14 @@ bool Read(ByteReader& reader, uint64_t count, int64_t place_count, std::vector<D
 }
 
 // 128 bits: a forged result must not pass by overflowing.
-struct Sum {
+struct Total {
   std::array<__int128, 3> quanta{};
   __int128 hits = 0;
-  bool operator==(const Sum&) const = default;
+  bool operator==(const Total&) const = default;
 };
 
-absl::StatusOr<Sum> SumOf(const std::vector<Deposit>& deposits) {
-  Sum sum;
+absl::StatusOr<Total> TotalOf(const std::vector<Deposit>& deposits) {
+  Total sum;
   for (const Deposit& deposit : deposits) {
     if (deposit.r < 0 || deposit.g < 0 || deposit.b < 0) {
       return Corrupt("unit result", "a deposit is negative");
@@ -169,8 +175,8 @@ void MergeResult(const UnitResult& from, UnitResult& into) {
   }
   Add(from.shot, into.shot);
   Add(from.escaped, into.escaped);
-  into.rays += from.rays;
-  into.channels = from.channels;
+  into.rays = Sum(into.rays, from.rays);
+  if (from.rays != 0) into.channels = from.channels;
   into.cpu_seconds += from.cpu_seconds;
 }
 
@@ -193,13 +199,13 @@ absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result) {
     return Corrupt("unit result", "it reports " + std::to_string(result.rays) + " rays of " +
                                       std::to_string(rays));
   }
-  const absl::StatusOr<Sum> sum = SumOf(result.deposits);
-  if (!sum.ok()) return sum.status();
-  const auto& [arrived, hits] = *sum;
-  if (!result.rests.empty()) {
-    const absl::StatusOr<Sum> rests = SumOf(result.rests);
-    if (!rests.ok()) return rests.status();
-    if (*rests != *sum) return Corrupt("unit result", "what came to rest is not what arrived");
+  const absl::StatusOr<Total> total = TotalOf(result.deposits);
+  if (!total.ok()) return total.status();
+  const auto& [arrived, hits] = *total;
+  const absl::StatusOr<Total> rested = TotalOf(result.rests);
+  if (!rested.ok()) return rested.status();
+  if (*rested != (unit.rays_per_m2 > 0 ? *total : Total{})) {
+    return Corrupt("unit result", "what came to rest is not what arrived");
   }
   if (hits > rays) return Corrupt("unit result", "more rays arrived than were shot");
   if (result.sightings.size() > static_cast<size_t>(hits)) {

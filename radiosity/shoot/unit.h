@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,18 @@ using Quanta = std::array<int64_t, 3>;  // r, g, b; of gray light r, 0, 0
 // Channels that travel: of gray light r stands for all three.
 inline constexpr int kColorChannels = 3, kGrayChannels = 1;
 
-// All visits of a step shoot at most 2^kMaxQuantaBits quanta a channel. A ray may carry 404 times
-// what its patch shoots: 101 where its pyramid has the least density (density.h), times 4 for the
-// greatest cosine of a pyramid over its mean. 2^54 times that is still under 2^63.
+inline Rgb InLumen(const Quanta& quanta, const Rgb& quantum_lm) {
+  return quantum_lm * Rgb{static_cast<double>(quanta[0]), static_cast<double>(quanta[1]),
+                          static_cast<double>(quanta[2])};
+}
+
+// All visits of a step shoot about 2^kMaxQuantaBits quanta a channel at most (AllocateRays). A ray
+// may carry 404 times what its patch shoots: 101 where its pyramid has the least density
+// (density.h), times 4 for the greatest cosine of a pyramid over its mean. So a shooter refuses
+// units whose visits hold more than kMaxUnitQuanta a channel: what they shoot might not fit into 63
+// bits.
 inline constexpr int kMaxQuantaBits = 54;
+inline constexpr int64_t kMaxUnitQuanta = std::numeric_limits<int64_t>::max() / 404;  // 1.27 * 2^54
 
 // Rays [ray_begin, ray_end) of the `ray_count` rays that share the quanta of one emitter.
 // Emitter: patch index, or patches.size() + l for point light l.
@@ -54,6 +63,7 @@ struct Deposit {
   int64_t r = 0, g = 0, b = 0;  // quanta
   int64_t hits = 0;             // rays, > 0
   PatchIndex patch = 0;
+  Quanta quanta() const { return {r, g, b}; }
   bool operator==(const Deposit&) const = default;
 };
 
@@ -86,15 +96,21 @@ struct UnitResult {
   bool operator==(const UnitResult&) const = default;
 };
 
-// Adds `from` to `into`, which is empty or of as many channels.
+// Adds `from` to `into`. Associative and commutative (cpu_seconds but for rounding), and an empty
+// result changes nothing; numbers are added modulo 2^64, so this holds for any numbers at all. Of
+// results of one step of AllocateRays no sum comes near that. Requires: both are of as many
+// channels, or one has no rays.
 void MergeResult(const UnitResult& from, UnitResult& into);
 
 // Gives all three channels what the first has.
 void SpreadGray(UnitResult& result);
 
-// OK if the result is of the unit's channels, shot = deposited + escaped in each, all deposits or
-// none came to rest, and rays = hits + misses is possible for `unit`; else DATA_LOSS (reason
-// RESULT_INVALID) with both numbers.
+// OK if the channels are the unit's; shot = deposited + escaped in each channel, without overflow;
+// what came to rest is what was deposited where the unit asks for it (rays_per_m2 > 0), and nothing
+// did where it does not; the rays are those of `unit`, and hits + misses. Else DATA_LOSS (reason
+// RESULT_INVALID) with both numbers. So a fault in one number of flux is noticed. What is not: flux
+// at a wrong patch or place, hits short of all rays, sightings, and faults of several numbers that
+// balance. Those show where a unit is run twice, in bytes that differ.
 absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result);
 
 // Canonical bytes (docs/formats.md): a unit's result has the same bytes wherever it was computed,

@@ -24,7 +24,8 @@ constexpr double kLeastLoss =
 
 // The power of two of which `total` takes at most 2^bits; 0 for no flux.
 double Quantum(double total_lm, int bits = kMaxQuantaBits) {
-  return total_lm > 0 ? std::ldexp(1.0, std::ilogb(total_lm) + 1 - bits) : 0.0;
+  constexpr int kLeast = -1074;  // of a double: every other one is a multiple of it
+  return total_lm > 0 ? std::ldexp(1.0, std::max(std::ilogb(total_lm) + 1 - bits, kLeast)) : 0.0;
 }
 
 Quanta InQuanta(const Rgb& flux_lm, const Rgb& quantum_lm) {
@@ -41,17 +42,16 @@ StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray
                       const std::vector<double>& weights) {
   std::vector<Share> shares;
   Rgb total;
-  double cumulative = offset, whole = 0;
+  double due = offset;  // a whole number of rays is, the rest is carried on
   for (const auto& [emitter, flux] : unsent) {
-    const double scalar = flux.r + flux.g + flux.b;
+    const double scalar = ChannelSum(flux);
     if (!(scalar > 0)) continue;
     const bool weighted = static_cast<size_t>(emitter) < weights.size();
     const double weight = weighted ? weights[emitter] : 1;
     const double expected = std::min(weight * scalar / flux_per_ray_lm, kMaxVisitRays);
-    cumulative += expected;
-    const double until = std::floor(cumulative);
-    const double rays = std::min(until - whole, kMaxVisitRays);
-    whole = until;
+    due += expected;
+    const double rays = std::min(std::floor(due), kMaxVisitRays);
+    due -= std::floor(due);
     if (rays < 1) continue;
     const Rgb sent = expected < 1 ? flux / expected : flux;
     shares.push_back({emitter, static_cast<uint32_t>(rays), sent});
@@ -104,7 +104,8 @@ std::vector<WorkUnit> CutIntoUnits(const StepPlan& plan, uint64_t seed, uint32_t
       Visit part = visit;
       if (plan.channels == kGrayChannels) part.quanta = {part.quanta[0], 0, 0};
       part.ray_begin = begin;
-      part.ray_end = static_cast<uint32_t>(std::min<int64_t>(visit.ray_count, begin + room));
+      part.ray_end =
+          begin + static_cast<uint32_t>(std::min<int64_t>(visit.ray_count - begin, room));
       units.back().visits.push_back(part);
       room -= part.ray_end - part.ray_begin;
       begin = part.ray_end;

@@ -20,7 +20,7 @@ struct UnsentFlux {
 // The visits of one step. Flux in lumen = quanta * quantum_lm, per channel.
 struct StepPlan {
   std::vector<Visit> visits;  // whole visits: ray_begin 0, ray_end ray_count
-  Rgb quantum_lm;             // a power of two, or 0 for a channel without flux
+  Rgb quantum_lm;             // a power of two, 2^-1074 or more; 0 for a channel without flux
   int64_t rays = 0;
   double rays_per_m2 = 0;  // WorkUnit's, for methods that want it
   // Of its units. Gray: the visits' channels are alike, and the first travels.
@@ -31,8 +31,13 @@ struct StepPlan {
 // weight: by emitter, 1 where the list ends before it); the numbers are rounded systematically over
 // the emitters from `offset` in [0, 1), so that E[rays_i] = e_i. An emitter that expects less than
 // one ray sends its flux / e_i when it gets one: Russian roulette, no flux is lost in expectation.
-// All flux that is shot is at most 2^kMaxQuantaBits quanta. Requires: finite flux >= 0,
-// flux_per_ray > 0, weights > 0.
+// All flux that is shot is at most 2^kMaxQuantaBits quanta and half a quantum an emitter. Requires:
+// finite flux >= 0 of a finite sum, flux_per_ray > 0, weights > 0.
+//
+// At the ends of the scale: no flux, no visit. No emitter gets more than 2^32 - 1 rays, and one
+// that expects under 2^-54 may get none in any case. What an emitter sends is rounded to the
+// nearest quantum: less than half a quantum, 2^-55 of the channel, is none. Denormal flux is a
+// whole number of quanta of 2^-1074. What is not sent is the step's residual (flux_ledger.h).
 StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray_lm, double offset,
                       const std::vector<double>& weights = {});
 
@@ -40,7 +45,7 @@ StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray
 // one visit, and `rays`, or as many as there are emitters and patches where that is more, are dealt
 // over them evenly. What arrives over all bounces, at most 1 / (1 - rho) times the emission with
 // rho the greatest reflectance of a channel, is under 2^61 quanta; where rho is over 1 - 2^-23,
-// that stands for it. Requires: finite flux >= 0, rays > 0.
+// that stands for it. Requires: finite flux >= 0 of a finite sum, rays > 0.
 StepPlan PlanWholePass(const std::vector<UnsentFlux>& unsent, const PatchSet& patches,
                        int64_t rays);
 

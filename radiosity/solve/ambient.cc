@@ -18,15 +18,9 @@ constexpr int64_t kRaysWithoutLoss = 1'000'000;
 constexpr double kLeftPerRootRay = 0.1;
 constexpr double kRoundedToZero = 1e-13;
 
-double Magnitude(const Rgb& flux) {
-  return std::fabs(flux.r) + std::fabs(flux.g) + std::fabs(flux.b);
-}
+double Magnitude(const Rgb& flux) { return ChannelSum(Abs(flux)); }
 
 double Least(const Rgb& value) { return std::min({value.r, value.g, value.b}); }
-
-Rgb Lumen(int64_t r, int64_t g, int64_t b, const Rgb& quantum_lm) {
-  return quantum_lm * Rgb{static_cast<double>(r), static_cast<double>(g), static_cast<double>(b)};
-}
 
 }  // namespace
 
@@ -41,16 +35,17 @@ Ambient::Ambient(const PatchSet& patches, const std::vector<int32_t>& group_of,
 
 // If the group is closed and its irradiance uniform.
 void Ambient::GuessFromMaterials() {
+  std::vector<double> area_m2(groups_.size());
   for (PatchIndex i = 0; i < patches_.size(); ++i) {
     Group& group = groups_[group_of_[i]];
-    group.area_m2 += patches_.area_m2[i];
+    area_m2[group_of_[i]] += patches_.area_m2[i];
     group.shape_lm = group.shape_lm + patches_.reflectance[i] * patches_.area_m2[i];
     const Rgb kept = Rgb{1, 1, 1} - patches_.reflectance[i];
     group.guess = group.guess + kept * patches_.area_m2[i];
   }
-  for (Group& group : groups_) {
-    group.guess = group.guess / group.area_m2;
-    group.guess_rays = kRaysOfGuess;
+  for (size_t g = 0; g < groups_.size(); ++g) {
+    groups_[g].guess = groups_[g].guess / area_m2[g];
+    groups_[g].guess_rays = kRaysOfGuess;
   }
 }
 
@@ -92,20 +87,26 @@ bool Ambient::IsStiff(const Group& group) const {
 
 bool Ambient::Helps() const {
   return std::any_of(groups_.begin(), groups_.end(),
-                     [&](const Group& group) { return IsStiff(group); });
+                     [this](const Group& group) { return IsStiff(group); });
 }
 
-int32_t Ambient::StiffGroupOf(int32_t emitter) const {
-  if (emitter >= patches_.size()) return kNoGroup;
-  const int32_t group = group_of_[emitter];
-  return IsStiff(groups_[group]) ? group : kNoGroup;
+std::vector<bool> Ambient::StiffGroups() const {
+  std::vector<bool> stiff(groups_.size());
+  for (size_t g = 0; g < groups_.size(); ++g) stiff[g] = IsStiff(groups_[g]);
+  return stiff;
+}
+
+int32_t Ambient::StiffGroupOf(int32_t emitter, const std::vector<bool>& stiff) const {
+  const int32_t group = emitter < patches_.size() ? group_of_[emitter] : kNoGroup;
+  return group != kNoGroup && stiff[group] ? group : kNoGroup;
 }
 
 std::vector<Ambient::Unsent> Ambient::SumByGroup(const std::vector<UnsentFlux>& flux) const {
+  const std::vector<bool> stiff_groups = StiffGroups();
   std::vector<CompensatedSum> sums(3 * groups_.size() + 3);
   std::vector<Unsent> by_group(groups_.size() + 1);
   for (const auto& [emitter, lm] : flux) {
-    const int32_t stiff = StiffGroupOf(emitter);
+    const int32_t stiff = StiffGroupOf(emitter, stiff_groups);
     const size_t group = stiff == kNoGroup ? groups_.size() : stiff;
     for (int c = 0; c < 3; ++c) sums[3 * group + c].Add(lm[c]);
     by_group[group].magnitude += Magnitude(lm);
@@ -189,9 +190,10 @@ double Ambient::NoiseRays(const Group& group) const {
 }
 
 std::vector<Ambient::Part> Ambient::Divide(const std::vector<UnsentFlux>& unsent) const {
+  const std::vector<bool> stiff_groups = StiffGroups();
   std::vector<Part> by_group(groups_.size() + 1);
   for (const UnsentFlux& flux : unsent) {
-    const int32_t group = StiffGroupOf(flux.emitter);
+    const int32_t group = StiffGroupOf(flux.emitter, stiff_groups);
     Part& part = by_group[group == kNoGroup ? groups_.size() : group];
     part.group = group;
     part.unsent.push_back(flux);
@@ -212,16 +214,16 @@ std::vector<Ambient::Part> Ambient::Divide(const std::vector<UnsentFlux>& unsent
   return by_group;
 }
 
-std::vector<UnsentFlux> Ambient::Learn(const Part& part, const StepPlan& plan,
-                                       const UnitResult& result) {
-  if (part.group == kNoGroup) return {};
-  Group& group = groups_[part.group];
-  const Rgb shot = Lumen(result.shot[0], result.shot[1], result.shot[2], plan.quantum_lm);
+std::vector<UnsentFlux> Ambient::Learn(int32_t of_group, const std::vector<UnsentFlux>& sent,
+                                       const StepPlan& plan, const UnitResult& result) {
+  if (of_group == kNoGroup) return {};
+  Group& group = groups_[of_group];
+  const Rgb shot = InLumen(result.shot, plan.quantum_lm);
   CompensatedSum lost[3], kept[3];
   for (int c = 0; c < 3; ++c) {
     lost[c].Add(shot[c]);
     kept[c].Add(-shot[c]);
-    for (const UnsentFlux& flux : part.unsent) kept[c].Add(flux.flux_lm[c]);
+    for (const UnsentFlux& flux : sent) kept[c].Add(flux.flux_lm[c]);
   }
   int64_t escaped = result.rays;
   for (const Deposit& d : result.deposits) {
@@ -229,7 +231,7 @@ std::vector<UnsentFlux> Ambient::Learn(const Part& part, const StepPlan& plan,
     const Rgb loss = Rgb{1, 1, 1} - patches_.reflectance[d.patch];
     group.losses = group.losses + loss * static_cast<double>(d.hits);
     group.squared_losses = group.squared_losses + loss * loss * static_cast<double>(d.hits);
-    const Rgb reflected = patches_.reflectance[d.patch] * Lumen(d.r, d.g, d.b, plan.quantum_lm);
+    const Rgb reflected = patches_.reflectance[d.patch] * InLumen(d.quanta(), plan.quantum_lm);
     for (int c = 0; c < 3; ++c) lost[c].Add(-reflected[c]);
   }
   const Rgb gone = Rgb{1, 1, 1} * static_cast<double>(escaped);
@@ -240,7 +242,7 @@ std::vector<UnsentFlux> Ambient::Learn(const Part& part, const StepPlan& plan,
   std::vector<Rgb> by_group(groups_.size());
   for (int c = 0; c < 3; ++c) {
     group.lost[c] += lost[c].value();
-    by_group[part.group][c] = kept[c].value();
+    by_group[of_group][c] = kept[c].value();
   }
   return Spread(by_group);
 }

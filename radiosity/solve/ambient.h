@@ -64,10 +64,11 @@ class Ambient {
   // Parts that together are `unsent`.
   std::vector<Part> Divide(const std::vector<UnsentFlux>& unsent) const;
 
-  // Takes note of what was lost of a part, and returns what was shot too little of it, or too much,
-  // by rounding, roulette and fractions of rays: in the shape of Ahead, in order. Added to the
-  // ledger it keeps the sum of the group exact. Nothing where the part is of no group.
-  std::vector<UnsentFlux> Learn(const Part& part, const StepPlan& plan, const UnitResult& result);
+  // Takes note of what was lost of a part of `sent`, and returns what was shot too little of it, or
+  // too much, by rounding, roulette and fractions of rays: in the shape of Ahead, in order. Added
+  // to the ledger it keeps the sum of the group exact. Nothing where the part is of no group.
+  std::vector<UnsentFlux> Learn(int32_t group, const std::vector<UnsentFlux>& sent,
+                                const StepPlan& plan, const UnitResult& result);
 
   // The share of the flux of a group that is unsent or would have to be shot ahead: of the stiff
   // group that has most.
@@ -83,7 +84,6 @@ class Ambient {
  private:
   // What is known of a group.
   struct Group {
-    double area_m2 = 0;
     Rgb shape_lm;           // sum of what `Ahead` spreads in proportion to
     Rgb guess;              // share lost at a bounce, before rays of this pass have told
     double guess_rays = 0;  // what the guess counts for
@@ -114,8 +114,10 @@ class Ambient {
   std::vector<Rgb> AheadByGroup(const std::vector<Unsent>& unsent) const;
   // Flux of each group in the shape of the reflection of uniform irradiance.
   std::vector<UnsentFlux> Spread(const std::vector<Rgb>& by_group) const;
+  // By group.
+  std::vector<bool> StiffGroups() const;
   // kNoGroup for emitters that are of no stiff group.
-  int32_t StiffGroupOf(int32_t emitter) const;
+  int32_t StiffGroupOf(int32_t emitter, const std::vector<bool>& stiff) const;
 
   const PatchSet& patches_;
   const std::vector<int32_t>& group_of_;

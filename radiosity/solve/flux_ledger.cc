@@ -6,25 +6,17 @@
 namespace lambert {
 namespace {
 
-Rgb Magnitude(Rgb flux) { return {std::fabs(flux.r), std::fabs(flux.g), std::fabs(flux.b)}; }
-
-Rgb InLumen(const Deposit& deposit, const Rgb& quantum_lm) {
-  return {static_cast<double>(deposit.r) * quantum_lm.r,
-          static_cast<double>(deposit.g) * quantum_lm.g,
-          static_cast<double>(deposit.b) * quantum_lm.b};
-}
-
 void AddDeposits(const std::vector<Deposit>& deposits, const Rgb& quantum_lm, Arrived& sum) {
   for (const Deposit& deposit : deposits) {
     const auto place = static_cast<size_t>(deposit.patch);
     if (place >= sum.hits.size()) continue;  // no such element: a forged result
-    sum.flux_lm[place] = sum.flux_lm[place] + InLumen(deposit, quantum_lm);
+    sum.flux_lm[place] = sum.flux_lm[place] + InLumen(deposit.quanta(), quantum_lm);
     sum.hits[place] += deposit.hits;
   }
 }
 
 // Two lists in order of emitters as one.
-std::vector<UnsentFlux> Sum(const std::vector<UnsentFlux>& a, const std::vector<UnsentFlux>& b) {
+std::vector<UnsentFlux> Merged(const std::vector<UnsentFlux>& a, const std::vector<UnsentFlux>& b) {
   std::vector<UnsentFlux> sum;
   sum.reserve(a.size() + b.size());
   auto from_a = a.begin(), from_b = b.begin();
@@ -84,7 +76,7 @@ void FluxLedger::AddUnsent(int32_t emitter, Rgb flux_lm) {
   if (flux_lm == Rgb{}) return;
   unsent_.push_back({emitter, flux_lm});
   unsent_sum_ = unsent_sum_ + flux_lm;
-  unsent_magnitude_ = unsent_magnitude_ + Magnitude(flux_lm);
+  unsent_magnitude_ = unsent_magnitude_ + Abs(flux_lm);
 }
 
 void FluxLedger::ClearUnsent() {
@@ -93,7 +85,7 @@ void FluxLedger::ClearUnsent() {
 }
 
 void FluxLedger::Add(const std::vector<UnsentFlux>& flux) {
-  const std::vector<UnsentFlux> sum = Sum(unsent_, flux);
+  const std::vector<UnsentFlux> sum = Merged(unsent_, flux);
   ClearUnsent();
   for (const UnsentFlux& unsent : sum) AddUnsent(unsent.emitter, unsent.flux_lm);
 }
@@ -102,21 +94,18 @@ std::vector<Rgb> FluxLedger::ArrivedFlux() const {
   return tree_ != nullptr ? tree_->PushDown(rested_, arrived_) : arrived_.flux_lm;
 }
 
-void FluxLedger::Book(std::vector<UnsentFlux> sent, const StepPlan& plan, const UnitResult& result,
-                      int sign) {
+void FluxLedger::Book(const std::vector<UnsentFlux>& sent, const StepPlan& plan,
+                      const UnitResult& result, int sign) {
   const Rgb quantum = plan.quantum_lm * sign;
-  std::vector<UnsentFlux> left;
-  const bool all = sign > 0 && !owes() && sent.size() == unsent_.size();
   Rgb sent_sum;
-  for (UnsentFlux& flux : sent) {
-    sent_sum = sent_sum + flux.flux_lm * sign;
-    flux.flux_lm = flux.flux_lm * -sign;
-  }
-  if (!all) left = Sum(unsent_, sent);
+  for (const UnsentFlux& flux : sent) sent_sum = sent_sum + flux.flux_lm * sign;
+  const bool all = sign > 0 && !owes() && sent.size() == unsent_.size();
+  std::vector<UnsentFlux> left;
+  if (!all) left = Merged(unsent_, Scaled(sent, -sign));
   ClearUnsent();
   Rgb absorbed;
   for (const Deposit& deposit : result.deposits) {
-    const Rgb arrived = InLumen(deposit, quantum);
+    const Rgb arrived = InLumen(deposit.quanta(), quantum);
     const Rgb reflected = patches_.reflectance[deposit.patch] * arrived;
     absorbed = absorbed + (arrived - reflected);
     AddUnsent(deposit.patch, reflected);
@@ -126,10 +115,10 @@ void FluxLedger::Book(std::vector<UnsentFlux> sent, const StepPlan& plan, const 
   if (tree_ != nullptr) AddDeposits(result.rests, quantum, rested_);
   for (int c = 0; c < 3; ++c) {
     absorbed_[c].Add(absorbed[c]);
-    escaped_[c].Add(static_cast<double>(result.escaped[c]) * quantum[c]);
+    escaped_[c].Add(InLumen(result.escaped, quantum)[c]);
     // What roulette and rounding shot too little, positive, or too much, negative.
     residual_[c].Add(sent_sum[c]);
-    residual_[c].Add(-static_cast<double>(result.shot[c]) * quantum[c]);
+    residual_[c].Add(-InLumen(result.shot, quantum)[c]);
   }
 }
 
@@ -146,12 +135,12 @@ void FluxLedger::BookSolution(const StepPlan& plan, const UnitResult& result) {
   AddDeposits(result.deposits, plan.quantum_lm, arrived_);
   CompensatedSum absorbed[3];
   for (const Deposit& deposit : result.deposits) {
-    const Rgb arrived = InLumen(deposit, plan.quantum_lm);
+    const Rgb arrived = InLumen(deposit.quanta(), plan.quantum_lm);
     const Rgb kept = arrived - patches_.reflectance[deposit.patch] * arrived;
     for (int c = 0; c < 3; ++c) absorbed[c].Add(kept[c]);
   }
   for (int c = 0; c < 3; ++c) {
-    const double escaped = static_cast<double>(result.escaped[c]) * plan.quantum_lm[c];
+    const double escaped = InLumen(result.escaped, plan.quantum_lm)[c];
     absorbed_[c].Add(absorbed[c].value());
     escaped_[c].Add(escaped);
     residual_[c].Add(emitted[c] - absorbed[c].value() - escaped);  // of rounding

@@ -36,16 +36,14 @@ class FluxLedger {
   // is none but after Add.
   const std::vector<UnsentFlux>& unsent() const { return unsent_; }
   // Whether some of it is negative.
-  bool owes() const { return unsent_total_lm() > unsent_sum_.r + unsent_sum_.g + unsent_sum_.b; }
+  bool owes() const { return unsent_total_lm() > ChannelSum(unsent_sum_); }
   // Magnitudes, summed over emitters and channels.
-  double unsent_total_lm() const {
-    return unsent_magnitude_.r + unsent_magnitude_.g + unsent_magnitude_.b;
-  }
-  double emitted_total_lm() const { return emitted_.r + emitted_.g + emitted_.b; }
+  double unsent_total_lm() const { return ChannelSum(unsent_magnitude_); }
+  double emitted_total_lm() const { return ChannelSum(emitted_); }
 
   // Books a step: the flux `sent`, times `sign`, has been shot as `plan` says and arrived as
   // `result` says; it is no longer unsent, but what arrived and is reflected is.
-  void Book(std::vector<UnsentFlux> sent, const StepPlan& plan, const UnitResult& result,
+  void Book(const std::vector<UnsentFlux>& sent, const StepPlan& plan, const UnitResult& result,
             int sign = 1);
 
   // Adds signed flux, in order of emitters, to what is unsent. Whoever adds owes as much: over a

@@ -24,12 +24,10 @@ absl::Status NothingIsLost() {
                     "give some material a reflectance under 1"});
 }
 
-// Area from which a step's rays start: of the emitters at first, of all patches when light is
-// everywhere.
-double ShootingArea(const PatchSet& patches, bool first_step) {
+double Area(const PatchSet& patches, bool emitters_only) {
   CompensatedSum area_m2;
   for (PatchIndex i = 0; i < patches.size(); ++i) {
-    if (!first_step || !(patches.exitance_lm_per_m2[i] == Rgb{})) area_m2.Add(patches.area_m2[i]);
+    if (!emitters_only || patches.exitance_lm_per_m2[i] != Rgb{}) area_m2.Add(patches.area_m2[i]);
   }
   return std::max(area_m2.value(), 1e-300);  // point lights only
 }
@@ -41,6 +39,10 @@ Pass::Pass(const PassSetting& setting, int32_t number, int64_t rays, double rays
       number_(number),
       wanted_rays_(rays),
       ledger_(setting.patches, setting.tree) {
+  if (setting.tree != nullptr) {
+    emitting_m2_ = Area(setting.patches, true);
+    area_m2_ = Area(setting.patches, false);
+  }
   const double emitted = ledger_.emitted_total_lm();
   const double first_rays = static_cast<double>(rays) / rays_per_first_ray;
   if (setting.light_groups.empty()) {
@@ -89,8 +91,8 @@ StepPlan Pass::PlanStep(double flux_per_ray_lm, const std::vector<UnsentFlux>& u
     }
   }
   if (setting_.tree != nullptr) {
-    const double area_m2 = ShootingArea(setting_.patches, steps_ == 0);
-    plan.rays_per_m2 = static_cast<double>(plan.rays) / area_m2;
+    // Rays start from the emitters at first, from all patches when light is everywhere.
+    plan.rays_per_m2 = static_cast<double>(plan.rays) / (steps_ == 0 ? emitting_m2_ : area_m2_);
   }
   return plan;
 }
@@ -108,9 +110,7 @@ absl::StatusOr<UnitResult> Pass::Execute(StepExecutor& executor, const StepPlan&
   }
   setting_.sightings.Add(result.sightings);
   rays_ += result.rays;
-  for (int c = 0; c < 3; ++c) {
-    shot_lm_ += static_cast<double>(result.shot[c]) * plan.quantum_lm[c];
-  }
+  for (int c = 0; c < 3; ++c) shot_lm_ += InLumen(result.shot, plan.quantum_lm)[c];
   cpu_seconds_ += result.cpu_seconds;
   if (steps_++ == 0) first_step_rays_ = rays_;
   return result;
@@ -126,24 +126,28 @@ absl::StatusOr<bool> Pass::SolveWhole(StepExecutor& executor) {
   return false;
 }
 
-absl::Status Pass::ShootPart(StepExecutor& executor, const Ambient::Part& part, int sign) {
-  const StepPlan plan = PlanStep(part.flux_per_ray_lm, part.unsent);
+absl::Status Pass::ShootPart(StepExecutor& executor, int32_t group, double flux_per_ray_lm,
+                             const std::vector<UnsentFlux>& sent, int sign) {
+  const StepPlan plan = PlanStep(flux_per_ray_lm, sent);
   const absl::StatusOr<UnitResult> result =
       Execute(executor, plan, UnitRays(plan.rays, setting_.patches.size()));
   if (!result.ok()) return result.status();
-  ledger_.Book(part.unsent, plan, *result, sign);
-  if (ambient_) ledger_.TakeBack(Scaled(ambient_->Learn(part, plan, *result), sign));
+  std::vector<UnsentFlux> residual;
+  if (ambient_) residual = Scaled(ambient_->Learn(group, sent, plan, *result), sign);
+  ledger_.Book(sent, plan, *result, sign);
+  if (!residual.empty()) ledger_.TakeBack(residual);
   return absl::OkStatus();
 }
 
 absl::StatusOr<bool> Pass::Shoot(StepExecutor& executor) {
   const Ledger before = ledger_.Balance();
-  for (int sign : {1, -1}) {
-    if (sign < 0 && !ledger_.owes()) continue;
-    const absl::Status status =
-        ShootPart(executor, {kNoGroup, flux_per_ray_lm_, OfSign(ledger_.unsent(), sign)}, sign);
-    if (!status.ok()) return status;
-  }
+  const auto shoot = [&](const std::vector<UnsentFlux>& sent, int sign) {
+    return ShootPart(executor, kNoGroup, flux_per_ray_lm_, sent, sign);
+  };
+  absl::Status status =
+      ledger_.owes() ? shoot(OfSign(ledger_.unsent(), 1), 1) : shoot(ledger_.unsent(), 1);
+  if (status.ok() && ledger_.owes()) status = shoot(OfSign(ledger_.unsent(), -1), -1);
+  if (!status.ok()) return status;
   const Ledger after = ledger_.Balance();
   const bool nothing_lost = after.absorbed == before.absorbed && after.escaped == before.escaped;
   steps_without_loss_ = nothing_lost ? steps_without_loss_ + 1 : 0;
@@ -163,7 +167,8 @@ absl::StatusOr<bool> Pass::ShootAhead(StepExecutor& executor) {
   for (int sign : {1, -1}) {
     for (const Ambient::Part& part :
          ambient_->Divide(OfSign(settles ? ahead : ledger_.unsent(), sign))) {
-      if (status.ok()) status = ShootPart(executor, part, sign);
+      if (!status.ok()) break;
+      status = ShootPart(executor, part.group, part.flux_per_ray_lm, part.unsent, sign);
     }
   }
   ledger_.Add(Scaled(ahead, -1));

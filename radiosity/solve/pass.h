@@ -58,13 +58,16 @@ class Pass {
   absl::StatusOr<bool> SolveWhole(StepExecutor& executor);
   absl::StatusOr<bool> Shoot(StepExecutor& executor);
   absl::StatusOr<bool> ShootAhead(StepExecutor& executor);
-  absl::Status ShootPart(StepExecutor& executor, const Ambient::Part& part, int sign);
+  // `group`: of Ambient.
+  absl::Status ShootPart(StepExecutor& executor, int32_t group, double flux_per_ray_lm,
+                         const std::vector<UnsentFlux>& sent, int sign);
 
   const PassSetting setting_;
   const int32_t number_;
   const int64_t wanted_rays_;
   FluxLedger ledger_;
-  std::optional<Ambient> ambient_;  // while flux is shot ahead
+  std::optional<Ambient> ambient_;        // while flux is shot ahead
+  double emitting_m2_ = 0, area_m2_ = 0;  // of the patches; with a tree only
   double flux_per_ray_lm_;
   int32_t steps_ = 0;
   int64_t rays_ = 0, first_step_rays_ = 0;

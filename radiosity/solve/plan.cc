@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "radiosity/core/error.h"
+#include "radiosity/shoot/directions.h"
 #include "radiosity/shoot/importance.h"
 #include "radiosity/solve/choose_method.h"
 #include "radiosity/solve/needs.h"
@@ -17,17 +18,26 @@ constexpr int64_t kMaxExactPassRays = 1 << 25;
 constexpr int64_t kPassesInBudget = 4;  // the first pass takes at most this share of --max-rays
 constexpr int64_t kPilotShare = 32;     // and this one where no standard error is wanted
 
+// Bytes a patch of what directions take, beside the tracer and what every method has.
+int64_t DirectionBytes(const ShootOptions& shoot) {
+  if (!UsesPyramids(shoot.method)) return 0;
+  constexpr int64_t kKept = 8, kCorners = 72, kClusters = 46, kPatches = 125;
+  // Geometry 36, tree 52, where flux rests 2 * 32.
+  if (shoot.method == Method::kPhsHier) return kKept + kPatches + 152;
+  if (ReadsPatches(shoot)) return kKept + kPatches + 184;  // targets
+  const bool probes = shoot.method == Method::kHs97 || shoot.method == Method::kHs98;
+  return kKept + (probes ? 0 : kCorners + kClusters);
+}
+
+// Peaks as bench/worker_memory.sh measures them (docs/benchmarks.md).
 int64_t WorkerBytes(const PatchSet& patches, const ShootOptions& shoot) {
-  // Patch set 200, tracer 60 + 119 at the peak of its build, frames 36, one unit's deposits 32.
-  int64_t bytes = patches.size() * (200 + 179 + 36 + 32);
-  if (UsesPyramids(shoot.method)) bytes += patches.size() * 200;  // clusters or targets
-  // Geometry 36, tree 52, where it rests 2 * 32.
-  if (shoot.method == Method::kPhsHier) bytes += patches.size() * (36 + 52 + 64);
-  if (shoot.method == Method::kExact) {
-    // Two halves of a matrix of doubles, and a link and its weight for up to half of all pairs.
-    bytes += (2 * 4 + 12) * int64_t{patches.size()} * patches.size();
-  }
-  return bytes;
+  const int64_t n = patches.size();
+  // Tracer 90 and its twin for rays that meet backs 66, with 33 while it is built; frames 64, what
+  // arrives 32, units and results 35.
+  const int64_t of_patch = 320 + DirectionBytes(shoot);
+  // Two halves of a matrix of doubles, and a link and its weight for up to half of all pairs.
+  const int64_t of_pair = shoot.method == Method::kExact ? 2 * 4 + 12 : 0;
+  return n * of_patch + n * n * of_pair;
 }
 
 // The method before its parts are decided.

@@ -65,7 +65,7 @@ struct Solver::State {
     at.pass_rays = FirstPassRays(*patches, options);
     at.rays_per_first_ray = GuessRaysPerFirstRay(*patches);
     const Rgb emitted = EmittedFlux(*patches);
-    if (!(emitted.r + emitted.g + emitted.b > 0)) {
+    if (!(ChannelSum(emitted) > 0)) {
       at.stop = StopReason::kNothingToShoot;
       at.unsent_fraction = 0;
     }

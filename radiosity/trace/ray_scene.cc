@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 #include <mutex>
@@ -18,14 +19,42 @@ namespace {
 // One instruction set everywhere: hits differ in their last bits between sets. Building in the
 // calling thread keeps the library free of threads that it was not given.
 constexpr char kDeviceConfig[] = "isa=avx2,threads=1,set_affinity=0";
+constexpr size_t kPadding = 4;   // numbers: Embree may read 16 bytes at the last vertex
 constexpr int kPacketWidth = 8;  // the native width of AVX2
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // What the filter of the culling scene needs of each triangle.
 struct Faces {
-  std::vector<PatchIndex> front;   // by Embree primitive
-  std::vector<PatchIndex> back;    // kNoPatch: one-sided
-  bool front_is_primitive = true;  // front[k] is k: no patch has a back
+  std::vector<PatchIndex> front;  // by Embree primitive; empty: front[k] is k, no patch has a back
+  std::vector<PatchIndex> back;   // kNoPatch: one-sided
+
+  PatchIndex Front(uint32_t primitive) const {
+    return front.empty() ? static_cast<PatchIndex>(primitive) : front[primitive];
+  }
+};
+
+// Vertices without most repetitions: neighbours follow each other closely, so the last of each hash
+// is all that is kept in mind.
+class VertexList {
+ public:
+  explicit VertexList(std::vector<float>* vertices) : vertices_(*vertices) {}
+
+  // The index of these coordinates.
+  uint32_t Put(const std::array<float, 3>& vertex) {
+    uint32_t bits[3];
+    std::memcpy(bits, vertex.data(), sizeof(bits));
+    uint32_t& last = last_[(bits[0] * 73856093u ^ bits[1] * 19349663u ^ bits[2] * 83492791u) >> 16];
+    const auto count = static_cast<uint32_t>(vertices_.size() / 3);
+    if (last >= count || std::memcmp(&vertices_[3 * last], vertex.data(), sizeof(bits)) != 0) {
+      vertices_.insert(vertices_.end(), vertex.begin(), vertex.end());
+      last = count;
+    }
+    return last;
+  }
+
+ private:
+  std::vector<float>& vertices_;
+  std::vector<uint32_t> last_ = std::vector<uint32_t>(1 << 16);
 };
 
 // Rejects the backs of one-sided triangles. Embree calls it with one ray at a time here.
@@ -85,8 +114,8 @@ struct RayScene::Impl {
   Vec3 center;       // of the bounding box, metres relative to the patch set's origin
   double scale = 1;  // trace coordinates per metre
   Faces faces;
-  std::vector<float> vertices;  // 9 a triangle and 4 of padding, shared with Embree
-  std::vector<uint32_t> indices;
+  std::vector<float> vertices;    // 3 each, and padding; shared with Embree
+  std::vector<uint32_t> indices;  // 3 a triangle
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   // The same triangles with CullBacks, for the rays that meet a back first: built when there is
@@ -120,20 +149,23 @@ void RayScene::Impl::Place(const PatchSet& patches) {
   }
   center = (low + high) * 0.5;
   scale = std::ldexp(1.0, -std::ilogb(Length(high - low)));
+  const auto backs = std::count(patches.is_back.begin(), patches.is_back.end(), 1);
+  const size_t triangles = patches.corners.size() - static_cast<size_t>(backs);
+  faces.back.reserve(triangles);
+  indices.reserve(3 * triangles);
+  VertexList list(&vertices);
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     if (patches.is_back[i]) continue;
-    faces.front_is_primitive &= i == static_cast<PatchIndex>(faces.front.size());
-    faces.front.push_back(i);
+    if (backs > 0) faces.front.push_back(i);
     faces.back.push_back(patches.twin[i]);
     for (const Vec3& p : patches.corners[i]) {
       const Vec3 q = (p - center) * scale;
-      vertices.insert(vertices.end(),
-                      {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)});
+      indices.push_back(
+          list.Put({static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)}));
     }
   }
-  indices.resize(vertices.size() / 3);
-  for (size_t k = 0; k < indices.size(); ++k) indices[k] = static_cast<uint32_t>(k);
-  vertices.insert(vertices.end(), 4, 0.0f);  // Embree may read 16 bytes at the last vertex
+  vertices.insert(vertices.end(), kPadding, 0.0f);
+  vertices.shrink_to_fit();
 }
 
 RTCScene RayScene::Impl::Build(bool cull_backs) const {
@@ -141,9 +173,10 @@ RTCScene RayScene::Impl::Build(bool cull_backs) const {
   rtcSetSceneFlags(built, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(built, RTC_BUILD_QUALITY_MEDIUM);
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  const size_t triangles = faces.front.size();
+  const size_t triangles = faces.back.size();
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                             vertices.data(), 0, 3 * sizeof(float), 3 * triangles);
+                             vertices.data(), 0, 3 * sizeof(float),
+                             (vertices.size() - kPadding) / 3);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(),
                              0, 3 * sizeof(uint32_t), triangles);
   if (cull_backs) {
@@ -164,7 +197,7 @@ RTCScene RayScene::Impl::CullingScene() const {
 
 // The patch whose side was hit, kNoPatch for the back of a one-sided triangle. Requires: a hit.
 PatchIndex RayScene::Impl::SideHit(const RTCRayHit& ray) const {
-  return (HitsBack(ray) ? faces.back : faces.front)[ray.hit.primID];
+  return HitsBack(ray) ? faces.back[ray.hit.primID] : faces.Front(ray.hit.primID);
 }
 
 RTCRayHit RayScene::Impl::CastCulled(const float origin[3], const float direction[3]) const {
@@ -201,7 +234,7 @@ void RayScene::Impl::TracePacket(RayBatch& batch, int first) const {
   const Int8 behind = hit & (facing > 0);
   const bool any_behind = AnyLane(behind);
   Int8 side = face;
-  if (!faces.front_is_primitive) side = Gather(faces.front.data(), face);
+  if (!faces.front.empty()) side = Gather(faces.front.data(), face);
   if (any_behind) side = behind ? Gather(faces.back.data(), face) : side;
   side = hit ? side : none;
   std::memcpy(batch.hit + first, &side, sizeof(side));

@@ -37,7 +37,7 @@ struct PictureHit {
 // The pins of the tracer, part of the unit version: two programs that agree on them get equal hits.
 std::string TracerPins();
 
-// Immutable; any number of threads may trace at once. The patch set must outlive it.
+// Immutable; any number of threads may trace at once. Needs the patch set no more once it is made.
 class RayScene {
  public:
   // FAILED_PRECONDITION where the processor lacks AVX2; RESOURCE_EXHAUSTED without enough memory.

@@ -29,6 +29,9 @@ std::vector<MethodCase> EveryShootingMethod() {
           {"phs-alpha with the unseen", Method::kPhsAlpha, {{"phs-count-unseen", "yes"}}},
           {"phs-adaptive", Method::kPhsAdaptive, {{"phs-leaves", "16"}, {"phs-depth", "3"}}},
           {"phs-hier", Method::kPhsHier, {}},
+          {"phs-hier with densities of elements",
+           Method::kPhsHier,
+           {{"phs-hier-densities", "yes"}, {"phs-min-rays", "100"}}},
           {"importance", Method::kImportance, {}}};
 }
 

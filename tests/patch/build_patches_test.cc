@@ -259,6 +259,48 @@ TEST(BuildPatches, TextureWithoutCoordinatesIsRefused) {
   EXPECT_NE(BuildPatches(scene, {}).status().message().find("TEXCOORD_0"), std::string::npos);
 }
 
+// Two triangles of a unit square, whose texture is two texels wide: green of alpha 0, red of 255.
+Scene MaskedSquare(double cutoff) {
+  Scene scene = SceneMaker().Quad({}, {1, 0, 0}, {0, 1, 0}, {{0.5, 0.5, 0.5}, {1, 1, 1}}).Make();
+  for (const auto& p : scene.meshes[0].primitives[0].positions) {
+    scene.meshes[0].primitives[0].uv[0].push_back({p[0], p[1]});
+  }
+  scene.textures.push_back({2, 1, {0, 255, 0, 0, 255, 0, 0, 255}});
+  scene.materials[0].reflectance_texture = 0;
+  scene.materials[0].alpha_cutoff = cutoff;
+  return scene;
+}
+
+TEST(BuildPatches, MaskLeavesOutThePatchesThatItCutsByMoreThanHalf) {
+  EXPECT_EQ(PatchesOf(MaskedSquare(0)).size(), 2);
+  const PatchSet patches = PatchesOf(MaskedSquare(0.5));
+  ASSERT_EQ(patches.size(), 1);
+  EXPECT_GT(PatchCentroid(patches, 0).x, 0) << "the triangle with more of the red texel";
+  EXPECT_EQ(patches.reflectance[0], (Rgb{0.5, 0, 0}));
+  EXPECT_TRUE(HasWarning(patches, "PARTLY_CUT_PATCHES"));
+}
+
+TEST(BuildPatches, MaskLeavesTheOpaqueHalfOfASquareThatIsSplit) {
+  PatchOptions options;
+  options.max_edge_m = 0.1;
+  const absl::StatusOr<PatchSet> patches = BuildPatches(MaskedSquare(0.5), options);
+  ASSERT_TRUE(patches.ok());
+  EXPECT_NEAR(TotalArea(*patches), 0.5, 1e-12);
+  EXPECT_FALSE(HasWarning(*patches, "PARTLY_CUT_PATCHES"));
+}
+
+TEST(BuildPatches, AMaskThatCutsEverythingIsSaidToBeTheReason) {
+  Scene scene = MaskedSquare(0.5);
+  scene.materials[0].alpha = 0.49;
+  const absl::Status status = BuildPatches(scene, {}).status();
+  EXPECT_EQ(ReasonOf(status), "NO_TRIANGLES");
+  EXPECT_NE(status.message().find("MASK"), std::string::npos) << status;
+  scene.materials[0].reflectance_texture = -1;
+  EXPECT_EQ(ReasonOf(BuildPatches(scene, {}).status()), "NO_TRIANGLES");
+  scene.materials[0].alpha = 0.5;
+  EXPECT_EQ(PatchesOf(scene).size(), 2);
+}
+
 TEST(PatchOptions, ValidateNamesTheFieldThatIsOutOfRange) {
   PatchOptions options;
   EXPECT_TRUE(options.Validate().ok());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/scenes.h"
+
 namespace lambert {
 namespace {
 
@@ -17,6 +19,10 @@ TEST(NodesCalled, FindsNoneForWhatIsNeither) {
   for (const char* name : {"", "2", "-1", "0x", "des", "99999999999"}) {
     EXPECT_EQ(NodesCalled(names, name), std::vector<int32_t>{}) << name;
   }
+}
+
+TEST(PatchSet, TheDiagonalIsThatOfAllPatches) {
+  EXPECT_DOUBLE_EQ(Diagonal(PatchesOf(MakeOffice(1))), std::sqrt(36 + 9 + 64));
 }
 
 }  // namespace

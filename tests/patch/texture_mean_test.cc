@@ -65,6 +65,26 @@ TEST(TextureMean, WrapModesDecideOutsideTheUnitSquare) {
   EXPECT_EQ(TextureMean(texture, {Uv{-0.9, 0}, Uv{-0.6, 0}, Uv{-0.8, 0.1}}, 64).r, 0);
 }
 
+// A green texel of alpha 127 and a red one of 128.
+Texture HalfCut() { return {2, 1, {0, 255, 0, 127, 255, 0, 0, 128}}; }
+constexpr std::array<Uv, 3> kUpperHalf = {Uv{0, 0}, Uv{1, 1}, Uv{0, 1}};
+
+TEST(TextureMean, OfTexelsThatAreNotCutLeavesOutTheOthers) {
+  EXPECT_EQ(TextureMean(HalfCut(), kLowerHalf, 512, 128), (Rgb{1, 0, 0}));
+  EXPECT_EQ(TextureMean(HalfCut(), kLowerHalf, 512, 129), (Rgb{}));
+  EXPECT_EQ(TextureMean(HalfCut(), kLowerHalf, 512, 127), TextureMean(HalfCut(), kLowerHalf, 512));
+}
+
+TEST(TextureCoverage, IsTheShareOfTexelsOfThatAlphaOrMore) {
+  for (const auto& [least_alpha, both] : {std::pair{127, 2.0}, {128, 1.0}, {129, 0.0}}) {
+    EXPECT_NEAR(TextureCoverage(HalfCut(), kLowerHalf, 512, least_alpha) +
+                    TextureCoverage(HalfCut(), kUpperHalf, 512, least_alpha),
+                both, 5e-3);
+  }
+  // Of the right one of the two triangles three quarters lie in the right one of the texels.
+  EXPECT_NEAR(TextureCoverage(HalfCut(), kLowerHalf, 512, 128), 0.75, 5e-3);
+}
+
 TEST(TextureMean, HugeCoordinatesStayBoundedInTimeAndRange) {
   const Rgb mean = TextureMean(Checker(16), {Uv{0, 0}, Uv{1e30, 0}, Uv{0, -1e30}}, 64);
   EXPECT_GE(mean.r, 0);
@@ -84,6 +104,29 @@ TEST(MakePatchMaterials, LeavesOutTexturesThatNoFactorShows) {
   EXPECT_EQ((*materials)[1].reflectance_texture, nullptr);
   EXPECT_EQ((*materials)[1].exitance_texture, nullptr);
   EXPECT_EQ((*materials)[0].reflectance, (Rgb{1, 1, 1}));
+}
+
+TEST(MakePatchMaterials, CutTexelsUnderTheCutoffAlsoOfBlackTextures) {
+  struct Case {
+    double cutoff, alpha;
+    int least_alpha;
+  };
+  for (const Case& c : {Case{0, 1, 0}, Case{0, 0, 0}, Case{0.5, 1, 128}, Case{128 / 255.0, 1, 128},
+                        Case{0.501960814, 1, 128}, Case{0.6, 0.7, 219}, Case{1, 1, 255},
+                        Case{1.1, 1, 256}, Case{0.5, 0, 256}}) {
+    Scene scene;
+    scene.textures.push_back(Uniform(1, 1, 0));
+    scene.materials.resize(1);
+    scene.materials[0].reflectance = {0, 0, 0};
+    scene.materials[0].reflectance_texture = 0;
+    scene.materials[0].alpha_cutoff = c.cutoff;
+    scene.materials[0].alpha = c.alpha;
+    std::vector<Warning> warnings;
+    const PatchMaterial made = (*MakePatchMaterials(scene, false, &warnings))[1];
+    EXPECT_EQ(made.least_alpha, c.least_alpha) << c.cutoff << " " << c.alpha;
+    EXPECT_EQ(made.alpha_texture, c.least_alpha > 0 ? &scene.textures[0] : nullptr);
+    EXPECT_EQ(made.reflectance_texture, nullptr);
+  }
 }
 
 }  // namespace

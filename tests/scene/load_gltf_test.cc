@@ -163,6 +163,23 @@ TEST(LoadGltf, OnlyTexturesThatShowAreDecoded) {
   EXPECT_NE(document.Load().status().message().find("image 1"), std::string::npos);
 }
 
+TEST(LoadGltf, AlphaIsReadForTheModeMaskAlone) {
+  GltfDocument document;
+  const int texture = document.AddTexture(MakePng(1, 1, std::string(4, '\x7f')));
+  document.Material()["pbrMetallicRoughness"]["baseColorFactor"] = {0, 0, 0, 0.75};
+  document.Material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = texture;
+  EXPECT_EQ(document.Load()->materials[0].alpha_cutoff, 0);
+  EXPECT_TRUE(document.Load()->textures.empty()) << "black";
+  document.Material()["alphaMode"] = "MASK";
+  EXPECT_EQ(document.Load()->materials[0].alpha_cutoff, 0.5) << "the default of glTF";
+  document.Material()["alphaCutoff"] = 0.25;
+  const Scene scene = *document.Load();
+  EXPECT_EQ(scene.materials[0].alpha_cutoff, 0.25);
+  EXPECT_EQ(scene.materials[0].alpha, 0.75);
+  EXPECT_EQ(scene.materials[0].reflectance_texture, 0) << "its alpha shows, though it is black";
+  EXPECT_FALSE(Mentions(scene, "alpha mode"));
+}
+
 TEST(LoadGltf, SamplersSetTheWrap) {
   GltfDocument document;
   const int texture = document.AddTexture(MakePng(1, 1, std::string(4, '\x7f')));

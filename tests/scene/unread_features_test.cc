@@ -9,11 +9,11 @@ TEST(UnreadFeatures, EachFeatureIsNamedOnceWithItsCount) {
   UnreadFeatures unread;
   EXPECT_TRUE(unread.Warnings().empty());
   unread.Add("skins", "node", "shown at rest");
-  unread.Add("alpha mode MASK", "material", "taken as opaque");
+  unread.Add("alpha mode BLEND", "material", "taken as opaque");
   unread.Add("skins", "node", "shown at rest");
   EXPECT_EQ(
       unread.Warnings(),
-      (std::vector<Warning>{{"FEATURE_NOT_READ", "alpha mode MASK (1 material): taken as opaque"},
+      (std::vector<Warning>{{"FEATURE_NOT_READ", "alpha mode BLEND (1 material): taken as opaque"},
                             {"FEATURE_NOT_READ", "skins (2 nodes): shown at rest"}}));
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <thread>
@@ -16,11 +17,14 @@ namespace {
 struct Made {
   Made(const Scene& from, const ShootOptions& options)
       : patches(PatchesOf(from)),
+        tree(patches),
         scene(*RayScene::Create(patches)),
         emitters(patches, *scene),
-        table(patches, *scene, emitters, options, ErrorWorth(patches, options.pyramids.metric)) {}
+        table(patches, *scene, emitters, options, ErrorWorth(patches, options.pyramids.metric),
+              options.method == Method::kPhsHier ? &tree : nullptr) {}
 
   PatchSet patches;
+  SurfaceTree tree;
   std::unique_ptr<RayScene> scene;
   Emitters emitters;
   DirectionTable table;
@@ -39,10 +43,10 @@ std::vector<double> Densities(const CellSpans& spans) {
 }
 
 std::vector<double> CountedDirectly(const PatchSet& patches, const PyramidOptions& options,
-                                    PatchIndex i) {
+                                    const LocalFrame& frame) {
   const CellSampler sampler(options);
-  const ClusterTree tree(patches, /*count_black=*/false);
-  const std::vector<int32_t> counts = tree.CountPatches(PatchFrame(patches, i), sampler.cells());
+  const ClusterTree tree(patches.corners, CountedPatches(patches, /*count_black=*/false));
+  const std::vector<int32_t> counts = tree.CountPatches(frame, sampler.cells());
   return Densities(CellSpans(CellDensities(sampler.fractions(), {counts.begin(), counts.end()},
                                            options.alpha1, options.alpha2)));
 }
@@ -55,11 +59,57 @@ TEST(DirectionTable, HoldsTheDensitiesOfEveryPatchAtTheFirstAndTheSecondCall) {
     const Made made(MakeCornell(2), options);
     EXPECT_EQ(made.table.sampler().cells().size(), 64);
     for (PatchIndex i = 0; i < made.patches.size(); i += 7) {
-      const std::vector<double> expected = CountedDirectly(made.patches, options.pyramids, i);
+      const std::vector<double> expected =
+          CountedDirectly(made.patches, options.pyramids, PatchFrame(made.patches, i));
       EXPECT_EQ(Densities(made.table.Get(i)->spans), expected);
       EXPECT_EQ(Densities(made.table.Get(i)->spans), expected);
     }
   }
+}
+
+TEST(DirectionTable, APatchOfFewRaysFollowsTheElementOfEnough) {
+  ShootOptions options = With(Method::kPhsHier);
+  options.pyramids.min_rays = 100;
+  const Made made(MakeOffice(4), options);
+  int elements = 0;
+  for (PatchIndex i = 0; i < made.patches.size(); ++i) {
+    EXPECT_EQ(made.table.PlaceFor({i, 100, 0, 100}, 0), i);
+    EXPECT_EQ(made.table.PlaceFor({i, 99, 0, 99}, 0), kNoPatch);
+    const PatchIndex place = made.table.PlaceFor({i, 99, 0, 99}, 50);
+    if (place == kNoPatch) continue;
+    ++elements;
+    ASSERT_GE(place, made.patches.size());
+    const Element& element = made.tree.elements()[place - made.patches.size()];
+    EXPECT_GE(element.area_m2, 2);
+    const auto begin = made.tree.order().begin();
+    EXPECT_EQ(std::count(begin + element.begin, begin + element.end, i), 1);
+    const int32_t within = made.tree.ParentOf(i);
+    EXPECT_TRUE(made.tree.PlaceOf(within) == place || made.tree.elements()[within].area_m2 < 2);
+    EXPECT_EQ(Densities(made.table.Get(place)->spans),
+              CountedDirectly(made.patches, options.pyramids,
+                              PlaceFrame(made.patches, made.tree, place)));
+  }
+  EXPECT_GT(elements, 100);
+}
+
+TEST(DirectionTable, WithoutATreeOnlyPatchesHaveDirections) {
+  ShootOptions options = With(Method::kPhs);
+  options.pyramids.min_rays = 100;
+  const Made made(MakeOffice(1), options);
+  EXPECT_EQ(made.table.PlaceFor({3, 100, 0, 100}, 1e9), 3);
+  EXPECT_EQ(made.table.PlaceFor({3, 99, 0, 99}, 1e9), kNoPatch);
+}
+
+TEST(DirectionTable, ReadsThePatchesNoMoreWhereItCounts) {
+  ShootOptions options = With(Method::kImportance);
+  EXPECT_TRUE(ReadsPatches(options));
+  options.method = Method::kPhs;
+  EXPECT_FALSE(ReadsPatches(options));
+  Made counted(MakeCornell(2), options);
+  counted.patches = {};
+  const PatchSet again = PatchesOf(MakeCornell(2));
+  EXPECT_EQ(Densities(counted.table.Get(5)->spans),
+            CountedDirectly(again, options.pyramids, PatchFrame(again, 5)));
 }
 
 TEST(DirectionTable, DoesNotDependOnClusters) {

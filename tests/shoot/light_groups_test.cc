@@ -39,5 +39,11 @@ TEST(FindLightGroups, RoomsWithoutADoorAreApartAndOutsidesAlone) {
   }
 }
 
+TEST(LightGroupRays, AreAMillionOrSixteenOfEveryPatch) {
+  EXPECT_EQ(LightGroupRays(1), 1024);
+  EXPECT_EQ(LightGroupRays(1 << 14), 1 << 20);
+  EXPECT_EQ(LightGroupRays(1'000'000), 16'000'000);
+}
+
 }  // namespace
 }  // namespace lambert

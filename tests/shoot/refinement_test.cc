@@ -35,8 +35,7 @@ class RefinementOfACube : public testing::Test {
     PyramidOptions options;
     options.hier_flux = flux;
     options.hier_size = size;
-    const Refinement refinement(patches_, *scene_, options);
-    EXPECT_EQ(refinement.place_count(), tree_.place_count());
+    const Refinement refinement(patches_, *scene_, tree_, options);
     refinement.Prefetch(batch_.hit[0]);
     const PatchIndex place = refinement.Place({emitter, rays, 0, rays, {}}, rays_per_m2, batch_, 0);
     if (place < patches_.size()) {

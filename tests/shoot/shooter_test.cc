@@ -194,14 +194,37 @@ TEST(Shooter, RefusesUnitsThatNameWhatDoesNotExist) {
                                                  {0, 5, 0, 6, {}},
                                                  {0, 5, 4, 3, {}},
                                                  {0, 5, 0, 5, {-1, 0, 0}},
-                                                 {0, 5, 0, 5, {0, 0, INT64_MIN}}}) {
-      const absl::StatusOr<UnitResult> result = shooter->Run({1, 0, 0, {{0, 1, 0, 1, {}}, visit}});
+                                                 {0, 5, 0, 5, {0, 0, INT64_MIN}},
+                                                 {0, 5, 0, 5, {0, 0, kMaxUnitQuanta}},
+                                                 {0, 5, 0, 5, {INT64_MAX, 0, 0}}}) {
+      const WorkUnit unit{1, 0, 0, {{0, 1, 0, 1, {0, 0, 1}}, visit}};
+      const absl::StatusOr<UnitResult> result = shooter->Run(unit);
       ASSERT_EQ(result.status().code(), absl::StatusCode::kInvalidArgument);
       EXPECT_EQ(GetErrorDetail(result.status())->reason, "FIELD_INVALID");
     }
     EXPECT_EQ(shooter->Run({1, 1u << 16, 0, {}}).status().code(),
               absl::StatusCode::kInvalidArgument);
   }
+}
+
+// kMaxUnitQuanta: where each ray carries what it may carry at most, the sum still fits.
+TEST(Shooter, ShootsAsManyQuantaAsFit) {
+  for (const ShootOptions& options : AllOptions()) {
+    const WorkUnit unit{1, 0, 0, {{0, 500, 0, 500, {kMaxUnitQuanta, 0, kMaxUnitQuanta}}}};
+    const absl::StatusOr<UnitResult> result = Make(options)->Run(unit);
+    ASSERT_TRUE(result.ok()) << result.status();
+    EXPECT_TRUE(CheckLedger(unit, *result).ok()) << CheckLedger(unit, *result);
+    EXPECT_GT(result->shot[0], kMaxUnitQuanta / 2);
+  }
+}
+
+TEST(Shooter, OfExactRefusesMoreQuantaThanItsSolutionHasRoomFor) {
+  ShootOptions options;
+  options.method = Method::kExact;
+  const auto shooter = Make(options);
+  EXPECT_TRUE(shooter->Run({1, 0, 0, {{0, 5, 0, 5, {int64_t{1} << 60, 0, 0}}}}).ok());
+  EXPECT_EQ(shooter->Run({1, 0, 0, {{0, 5, 0, 5, {int64_t{1} << 62, 0, 0}}}}).status().code(),
+            absl::StatusCode::kInvalidArgument);
 }
 
 TEST(Shooter, OfAGrayJobTakesUnitsOfOneChannelAndReturnsTheFirstOfThree) {

@@ -98,25 +98,6 @@ void Damage(TestRandom& random, std::string& bytes) {
   }
 }
 
-TEST(UnitCodec, GivesUnitsBack) {
-  for (const WorkUnit& unit : {WorkUnit{}, MakeUnit()}) {
-    const absl::StatusOr<WorkUnit> read = DecodeUnit(EncodeUnit(unit));
-    ASSERT_TRUE(read.ok()) << read.status();
-    EXPECT_EQ(*read, unit);
-  }
-}
-
-TEST(UnitCodec, GivesResultsBackButForTheProcessorTime) {
-  UnitResult result = MakeResult();
-  const std::string bytes = EncodeUnitResult(result);
-  result.cpu_seconds = 1.5;
-  EXPECT_TRUE(EncodeUnitResult(result) == bytes);
-  const absl::StatusOr<UnitResult> read = DecodeUnitResult(bytes, kPatches);
-  ASSERT_TRUE(read.ok()) << read.status();
-  result.cpu_seconds = 0;
-  EXPECT_EQ(*read, result);
-}
-
 TEST(UnitCodec, RefusesEveryTruncationAndWhatFollowsTheEnd) {
   const std::string unit = EncodeUnit(MakeUnit()), result = EncodeUnitResult(MakeResult());
   for (size_t size = 0; size < unit.size(); ++size) {

@@ -3,43 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "radiosity/core/error.h"
-#include "tests/support/statistics.h"
+#include "tests/support/landed_rays.h"
 
 namespace lambert {
 namespace {
-
-constexpr PatchIndex kPatches = 6;
-
-UnitResult RandomResult(TestRandom& random) {
-  UnitResult result;
-  for (PatchIndex patch = 0; patch < kPatches; ++patch) {
-    if (random.Below(3) == 0) continue;
-    result.deposits.push_back({random.Below(1 << 30), random.Below(1 << 30), random.Below(1 << 30),
-                               1 + random.Below(100), patch});
-  }
-  for (int c = 0; c < 3; ++c) {
-    result.shot[c] = random.Below(1 << 30);
-    result.escaped[c] = random.Below(1 << 30);
-  }
-  result.rays = random.Below(1000);
-  result.cpu_seconds = static_cast<double>(random.Below(8));  // sums exactly
-  return result;
-}
-
-UnitResult Merged(const UnitResult& a, const UnitResult& b) {
-  UnitResult sum = a;
-  MergeResult(b, sum);
-  return sum;
-}
-
-TEST(MergeResult, IsCommutativeAndAssociative) {
-  TestRandom random(1);
-  for (int k = 0; k < 200; ++k) {
-    const UnitResult a = RandomResult(random), b = RandomResult(random), c = RandomResult(random);
-    ASSERT_EQ(Merged(a, b), Merged(b, a));
-    ASSERT_EQ(Merged(Merged(a, b), c), Merged(a, Merged(b, c)));
-  }
-}
 
 TEST(MergeResult, AddsEveryField) {
   UnitResult a;
@@ -56,12 +23,6 @@ TEST(MergeResult, AddsEveryField) {
   EXPECT_EQ(twice.escaped, (Quanta{2, 4, 6}));
   EXPECT_EQ(twice.rays, 24);
   EXPECT_EQ(twice.cpu_seconds, 1);
-}
-
-TEST(MergeResult, IntoNothingIsACopy) {
-  TestRandom random(2);
-  const UnitResult a = RandomResult(random);
-  EXPECT_EQ(Merged(UnitResult(), a), a);
 }
 
 TEST(WorkUnit, CountsTheRaysOfItsRanges) {
@@ -122,12 +83,16 @@ TEST(CheckLedger, WhatComesToRestIsWhatArrived) {
     all = {all.r + d.r, all.g + d.g, all.b + d.b, all.hits + d.hits, 7};
   }
   booked.result.rests = {all};
+  EXPECT_FALSE(CheckLedger(booked.unit, booked.result).ok()) << "nothing should rest";
+  booked.unit.rays_per_m2 = 1;
   EXPECT_TRUE(CheckLedger(booked.unit, booked.result).ok());
   ++booked.result.rests[0].g;
   EXPECT_FALSE(CheckLedger(booked.unit, booked.result).ok());
   booked.result.rests = {all};
   --booked.result.rests[0].hits;
   EXPECT_FALSE(CheckLedger(booked.unit, booked.result).ok());
+  booked.result.rests.clear();
+  EXPECT_FALSE(CheckLedger(booked.unit, booked.result).ok()) << "all of it got lost";
 }
 
 TEST(CheckLedger, RefusesEachKindOfForgery) {

@@ -32,10 +32,10 @@ struct Shot {
   UnitResult result;
 };
 
-// The part that the shot was of.
-Ambient::Part PartOf(const Shot& shot, int32_t group = 0) {
+// Tells of a shot of just that flux in the first group.
+void Learn(Ambient& ambient, const Shot& shot) {
   const double lm = shot.plan.visits[0].ray_count;
-  return {group, 1, {{0, {lm, lm, lm}}}};
+  ambient.Learn(0, {{0, {lm, lm, lm}}}, shot.plan, shot.result);
 }
 
 class AmbientOfAFurnace : public testing::Test {
@@ -51,13 +51,13 @@ TEST_F(AmbientOfAFurnace, ShootsNothingAheadBeforeRaysHaveTold) {
   EXPECT_EQ(Sum(ambient_.Ahead(ledger_)), 0);
   EXPECT_TRUE(ambient_.Helps());
   const Shot shot(99, 0);
-  ambient_.Learn(PartOf(shot), shot.plan, shot.result);
+  Learn(ambient_, shot);
   EXPECT_EQ(Sum(ambient_.Ahead(ledger_)), 0);
 }
 
 TEST_F(AmbientOfAFurnace, ShootsAheadWhatTheUnsentFluxWillBecome) {
   const Shot shot(1000, 0);
-  ambient_.Learn(PartOf(shot), shot.plan, shot.result);
+  Learn(ambient_, shot);
   const std::vector<UnsentFlux> ahead = ambient_.Ahead(ledger_);
   EXPECT_NEAR(Sum(ahead), 199 * 6, 1e-9)
       << "of two hundred times the emission a two-hundredth is lost";
@@ -69,7 +69,7 @@ TEST_F(AmbientOfAFurnace, ShootsAheadWhatTheUnsentFluxWillBecome) {
 
 TEST_F(AmbientOfAFurnace, GivesUpWhereMuchEscapes) {
   const Shot shot(100000, 20000);
-  ambient_.Learn(PartOf(shot), shot.plan, shot.result);
+  Learn(ambient_, shot);
   EXPECT_FALSE(ambient_.Helps()) << "it dies out by itself";
   EXPECT_EQ(Sum(ambient_.Ahead(ledger_)), 0);
 }
@@ -77,26 +77,24 @@ TEST_F(AmbientOfAFurnace, GivesUpWhereMuchEscapes) {
 TEST_F(AmbientOfAFurnace, LearnsFromWhatEscapes) {
   // A thousandth escapes, and a two-hundredth of the rest is absorbed; ten rays' worth is guessed.
   const Shot shot(1000000, 1000);
-  ambient_.Learn(PartOf(shot), shot.plan, shot.result);
+  Learn(ambient_, shot);
   EXPECT_NEAR(Sum(ambient_.Ahead(ledger_)), 6 * (1 / (1 - 0.995 * 0.999) - 1), 0.01);
 }
 
 TEST_F(AmbientOfAFurnace, KeepsTheSumOfAGroupWhateverIsRounded) {
   const Shot shot(1000, 0);  // 1000 lm
-  const Ambient::Part part{0, 1, {{0, {900, 900, 900}}, {3, {102, 102, 102}}}};
-  const std::vector<UnsentFlux> rest = ambient_.Learn(part, shot.plan, shot.result);
+  const std::vector<UnsentFlux> sent = {{0, {900, 900, 900}}, {3, {102, 102, 102}}};
+  const std::vector<UnsentFlux> rest = ambient_.Learn(0, sent, shot.plan, shot.result);
   EXPECT_NEAR(Sum(rest), 2, 1e-11);
   EXPECT_EQ(rest.size(), 12u);
-  Ambient::Part elsewhere = part;
-  elsewhere.group = kNoGroup;
-  EXPECT_EQ(Sum(ambient_.Learn(elsewhere, shot.plan, shot.result)), 0);
+  EXPECT_EQ(Sum(ambient_.Learn(kNoGroup, sent, shot.plan, shot.result)), 0);
 }
 
 TEST_F(AmbientOfAFurnace, IsDoneWhenLittleIsLeftForItsRays) {
   EXPECT_EQ(ambient_.Left(ledger_), 1) << "nothing was shot";
   EXPECT_FALSE(ambient_.IsDone(ledger_, 0));
   const Shot shot(36000, 0);
-  ambient_.Learn(PartOf(shot), shot.plan, shot.result);
+  Learn(ambient_, shot);
   // 6 lm unsent and 1194 to be shot for them, in each of three channels, by 36,000 shot.
   EXPECT_NEAR(ambient_.Left(ledger_), 1200.0 / 36000, 1e-9);
   EXPECT_FALSE(ambient_.IsDone(ledger_, 0));
@@ -113,8 +111,8 @@ TEST(Ambient, KnowsARoomThatLosesNothing) {
   const Shot closed(600000, 0), open(600000, 1);
   for (int k = 0; k < 2; ++k) {
     EXPECT_FALSE(ambient.LosesNothing());
-    ambient.Learn(PartOf(closed), closed.plan, closed.result);
-    leaking.Learn(PartOf(open), open.plan, open.result);
+    Learn(ambient, closed);
+    Learn(leaking, open);
   }
   EXPECT_TRUE(ambient.LosesNothing());
   EXPECT_FALSE(leaking.LosesNothing());
@@ -151,7 +149,7 @@ TEST(Ambient, KeepsGroupsApart) {
   EXPECT_EQ(parts[2].flux_per_ray_lm, 0.02);
 
   Shot shot(1000, 0);
-  ambient.Learn(parts[0], shot.plan, shot.result);
+  ambient.Learn(parts[0].group, parts[0].unsent, shot.plan, shot.result);
   for (const UnsentFlux& flux : ambient.Ahead(ledger)) EXPECT_EQ(groups[flux.emitter], 0);
   EXPECT_FALSE(ambient.IsDone(ledger, 1e9)) << "one group has yet to be shot";
 }

@@ -90,6 +90,16 @@ TEST(MakePlan, NamesBlackPatchesWithTheirNumberAndSaving) {
   EXPECT_NE(item->saving.find("25 %"), std::string::npos) << item->saving;
 }
 
+TEST(MakePlan, WorkersOfPmcrTakeUnder400BytesAPatchAndThoseOfPyramidsMore) {
+  const PatchSet patches = PatchesOf(MakeCornell(20));
+  SolveOptions options;
+  options.shoot.method = Method::kPmcr;
+  const int64_t pmcr = MakePlan(patches, options).worker_bytes;
+  EXPECT_LT(pmcr, 400 * patches.size());
+  options.shoot.method = Method::kPhs;
+  EXPECT_GT(MakePlan(patches, options).worker_bytes, pmcr);
+}
+
 // Options of a method that ask for parts.
 SolveOptions Asked(Method method, std::initializer_list<Part> with,
                    std::initializer_list<Part> without = {}) {
