@@ -25,8 +25,9 @@ struct PatchOptions {
 // textures over each patch, and sorts. Exitance is pi times the luminance in either emission unit:
 // the unit says how to read the results, and nothing is multiplied by 683 on the way. Reflectance
 // over 1 is clamped with a warning (REFLECTANCE_CLAMPED), over .95 warned of (REFLECTANCE_HIGH);
-// values that are not finite are refused by name. No emitter at all: warning NO_EMITTERS. No
-// triangle left: SceneError with reason NO_TRIANGLES.
+// values that are not finite are refused by name. Patches that lie on one another are named
+// (COPLANAR_OVERLAP). No emitter at all: warning NO_EMITTERS. No triangle left: SceneError with
+// reason NO_TRIANGLES.
 absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& options);
 
 }  // namespace lambert

@@ -14,12 +14,17 @@
 namespace lambert {
 namespace {
 
-// Whether what the visits shoot fits into its integers.
+// Whether what the visits shoot fits into its integers. Parts of one visit share its quanta.
 bool HasRoom(const WorkUnit& unit) {
   Quanta left{kMaxUnitQuanta, kMaxUnitQuanta, kMaxUnitQuanta};
+  PatchIndex emitter = -1;
   for (const Visit& visit : unit.visits) {
+    const bool more_of_it = visit.emitter == emitter;
+    emitter = visit.emitter;
     for (int c = 0; c < 3; ++c) {
-      if (visit.quanta[c] < 0 || visit.quanta[c] > left[c]) return false;
+      if (visit.quanta[c] < 0 || visit.quanta[c] > kMaxUnitQuanta) return false;
+      if (more_of_it) continue;
+      if (visit.quanta[c] > left[c]) return false;
       left[c] -= visit.quanta[c];
     }
   }

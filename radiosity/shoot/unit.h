@@ -28,8 +28,8 @@ inline Rgb InLumen(const Quanta& quanta, const Rgb& quantum_lm) {
 // All visits of a step shoot about 2^kMaxQuantaBits quanta a channel at most (AllocateRays). A ray
 // may carry 404 times what its patch shoots: 101 where its pyramid has the least density
 // (density.h), times 4 for the greatest cosine of a pyramid over its mean. So a shooter refuses
-// units whose visits hold more than kMaxUnitQuanta a channel: what they shoot might not fit into 63
-// bits.
+// units whose visits hold more than kMaxUnitQuanta a channel, parts of one visit that follow each
+// other counted once: what they shoot might not fit into 63 bits.
 inline constexpr int kMaxQuantaBits = 54;
 inline constexpr int64_t kMaxUnitQuanta = std::numeric_limits<int64_t>::max() / 404;  // 1.27 * 2^54
 

@@ -191,12 +191,12 @@ TEST(Shooter, RefusesUnitsThatNameWhatDoesNotExist) {
     const auto shooter = Make(options);
     for (const Visit& visit : std::vector<Visit>{{-1, 5, 0, 5, {}},
                                                  {lights_end, 5, 0, 5, {}},
-                                                 {0, 5, 0, 6, {}},
-                                                 {0, 5, 4, 3, {}},
-                                                 {0, 5, 0, 5, {-1, 0, 0}},
-                                                 {0, 5, 0, 5, {0, 0, INT64_MIN}},
-                                                 {0, 5, 0, 5, {0, 0, kMaxUnitQuanta}},
-                                                 {0, 5, 0, 5, {INT64_MAX, 0, 0}}}) {
+                                                 {1, 5, 0, 6, {}},
+                                                 {1, 5, 4, 3, {}},
+                                                 {1, 5, 0, 5, {-1, 0, 0}},
+                                                 {1, 5, 0, 5, {0, 0, INT64_MIN}},
+                                                 {1, 5, 0, 5, {0, 0, kMaxUnitQuanta}},
+                                                 {1, 5, 0, 5, {INT64_MAX, 0, 0}}}) {
       const WorkUnit unit{1, 0, 0, {{0, 1, 0, 1, {0, 0, 1}}, visit}};
       const absl::StatusOr<UnitResult> result = shooter->Run(unit);
       ASSERT_EQ(result.status().code(), absl::StatusCode::kInvalidArgument);
@@ -215,6 +215,9 @@ TEST(Shooter, ShootsAsManyQuantaAsFit) {
     ASSERT_TRUE(result.ok()) << result.status();
     EXPECT_TRUE(CheckLedger(unit, *result).ok()) << CheckLedger(unit, *result);
     EXPECT_GT(result->shot[0], kMaxUnitQuanta / 2);
+    WorkUnit parts{1, 0, 0, {unit.visits[0], unit.visits[0]}};
+    parts.visits[0].ray_end = parts.visits[1].ray_begin = 200;
+    EXPECT_EQ(Make(options)->Run(parts)->deposits, result->deposits);
   }
 }
 
