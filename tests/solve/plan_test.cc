@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "radiosity/solve/choose_method.h"
 #include "tests/support/scenes.h"
 
 namespace lambert {
@@ -23,11 +24,16 @@ PatchSet Uneven() {
                        .Make());
 }
 
-TEST(MakePlan, ResolvesAutoByTheUnevennessOfAreas) {
+TEST(MakePlan, ResolvesAutoAndSaysWhy) {
   SolveOptions any;
   any.shoot.method = Method::kAuto;
-  EXPECT_EQ(MakePlan(PatchesOf(MakeFurnace(0.5)), any).options.shoot.method, Method::kPmcr);
-  EXPECT_EQ(MakePlan(Uneven(), any).options.shoot.method, Method::kPhs);
+  for (const PatchSet& patches : {PatchesOf(MakeFurnace(0.5)), Uneven()}) {
+    const MethodChoice choice = ChooseMethod(patches, any);
+    const Plan plan = MakePlan(patches, any);
+    EXPECT_EQ(plan.options.shoot.method, choice.method);
+    ASSERT_NE(Find(plan, "pyramids"), nullptr);
+    EXPECT_EQ(Find(plan, "pyramids")->reason, choice.reason);
+  }
 }
 
 TEST(MakePlan, KeepsTheMethodThatIsAskedFor) {
@@ -74,7 +80,7 @@ TEST(MakePlan, EveryItemHasAReason) {
       EXPECT_FALSE(item.reason.empty()) << item.item;
     }
     ASSERT_NE(Find(plan, "pyramids"), nullptr);
-    EXPECT_EQ(Find(plan, "pyramids")->left_out, plan.options.shoot.method == Method::kPmcr);
+    EXPECT_EQ(Find(plan, "pyramids")->left_out, !UsesPyramids(plan.options.shoot.method));
   }
 }
 
