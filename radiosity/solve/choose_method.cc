@@ -12,7 +12,7 @@ namespace {
 
 // Measured (docs/benchmarks.md, "Which method auto takes").
 constexpr double kExactSecondsPerPair = 0.8e-6;  // form factors and who hides whom
-constexpr double kExactRaysPerPair = 0.04;       // from here on it has the least error^2 x time
+constexpr double kExactRaysPerPair = 0.05;       // from here on it has the least error^2 x time
 constexpr double kVarianceOfPatch = 0.6;         // relative area-weighted, of pmcr, times its rays
 constexpr double kRaysPerSecond = 5e6;           // of one thread
 constexpr double kPatience_s = 6;                // of preparing, where nothing is said of time
