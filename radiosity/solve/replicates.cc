@@ -71,12 +71,14 @@ Solution Replicates::Mean() const {
   solution.hits = hits_;
   solution.ledger = ledger_;
   solution.radiosity_lm_per_m2.resize(patches_.size());
-  solution.std_error_lm_per_m2.resize(patches_.size());
+  // One pass does not tell how far it is off.
+  solution.std_error_lm_per_m2.resize(patches_.size(), passes_ == 1 ? kUnknownError : Rgb{});
   const double scale = passes_ > 1 ? 1 / ((passes_ - 1) * weight_) : 0;
   const Rgb flux_of_ray = hits_are_rays_ && passes_ > 1 ? MeanFluxOfRay() : Rgb{};
   for (PatchIndex i = 0; i < patches_.size(); ++i) {
     solution.radiosity_lm_per_m2[i] =
         patches_.exitance_lm_per_m2[i] + patches_.reflectance[i] * irradiance_lx_[i];
+    if (passes_ < 2) continue;
     if (hits_[i] == 0 && irradiance_lx_[i] == Rgb{}) {
       solution.std_error_lm_per_m2[i] = patches_.reflectance[i] * flux_of_ray / patches_.area_m2[i];
       continue;

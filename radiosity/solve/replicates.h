@@ -25,7 +25,7 @@ class Replicates {
   void Add(const FluxLedger& pass, int64_t rays);
 
   int32_t passes() const { return passes_; }
-  // Mean solution; standard errors are zero until there are two passes. That of a patch that no ray
+  // Mean solution; the standard errors of one pass are kUnknownError. That of a patch that no ray
   // has hit is what one ray more, of mean flux, would bring: of its true light no more is known.
   Solution Mean() const;
   // CONTRACT's rms_area and rms_patch of the mean, estimated; -1 with fewer than two passes; 0

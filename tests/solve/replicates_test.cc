@@ -131,7 +131,7 @@ TEST(Replicates, KnowNoErrorBeforeTheSecondPass) {
   EXPECT_EQ(replicates.passes(), 1);
   EXPECT_EQ(replicates.EstimatedRmsArea(), -1);
   EXPECT_EQ(replicates.EstimatedRmsPatch(), -1);
-  EXPECT_EQ(replicates.Mean().std_error_lm_per_m2[0], Rgb{});
+  EXPECT_EQ(replicates.Mean().std_error_lm_per_m2[0], kUnknownError);
   replicates.Add(passes[1].ledger, passes[1].rays);
   EXPECT_GT(replicates.EstimatedRmsArea(), 0);
   EXPECT_GT(replicates.EstimatedRmsPatch(), 0);
