@@ -154,8 +154,9 @@ void ExpectBounds(const StiffCase& c, const std::string& file) {
 void ExpectRefused(const PatchSet& patches, const SolveOptions& options,
                    const std::string& reason) {
   auto shared = std::make_shared<const PatchSet>(patches);
-  SerialExecutor executor(*Shooter::Create(shared, {}));
-  Solver solver(shared, MakePlan(patches, options).options, [] { return 0.0; });
+  const SolveOptions planned = MakePlan(patches, options).options;
+  SerialExecutor executor(*Shooter::Create(shared, planned.shoot));
+  Solver solver(shared, planned, [] { return 0.0; });
   absl::Status status;
   while (status.ok() && solver.stop_reason() == StopReason::kNone) {
     status = solver.RunPass(executor, nullptr);
