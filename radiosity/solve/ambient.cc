@@ -28,6 +28,7 @@ Ambient::Ambient(const PatchSet& patches, const std::vector<int32_t>& group_of,
                  const Before& before, const RayFlux& ray_flux)
     : patches_(patches), group_of_(group_of), ray_flux_(ray_flux) {
   groups_.resize(1 + *std::max_element(group_of.begin(), group_of.end()));
+  for (PatchIndex i = 0; i < patches.size(); ++i) groups_[group_of[i]].members.push_back(i);
   GuessFromMaterials();
   // The flux of point lights enters groups that are not known.
   if (!before.flux_lm.empty() && patches.point_lights.empty()) GuessFromSolution(before);
@@ -133,11 +134,9 @@ std::vector<Rgb> Ambient::AheadByGroup(const std::vector<Unsent>& unsent) const 
   return ahead;
 }
 
-std::vector<UnsentFlux> Ambient::Spread(const std::vector<Rgb>& by_group) const {
-  std::vector<UnsentFlux> flux;
-  for (PatchIndex i = 0; i < patches_.size(); ++i) {
-    const Group& group = groups_[group_of_[i]];
-    const Rgb sum = by_group[group_of_[i]];
+void Ambient::Spread(const Group& group, Rgb sum, std::vector<UnsentFlux>& flux) const {
+  if (sum == Rgb{}) return;
+  for (PatchIndex i : group.members) {
     Rgb share;
     for (int c = 0; c < 3; ++c) {
       if (sum[c] == 0 || !(group.shape_lm[c] > 0)) continue;
@@ -145,7 +144,6 @@ std::vector<UnsentFlux> Ambient::Spread(const std::vector<Rgb>& by_group) const 
     }
     if (share != Rgb{}) flux.push_back({i, share});
   }
-  return flux;
 }
 
 std::vector<UnsentFlux> Ambient::Ahead(const FluxLedger& ledger) {
@@ -158,7 +156,13 @@ std::vector<UnsentFlux> Ambient::Ahead(const FluxLedger& ledger) {
     const double flux_lm = unsent[g].magnitude + Magnitude(ahead[g]);
     ChooseFluxPerRay(flux_lm, ray_flux_.least_rays / lit, groups_[g]);
   }
-  return Spread(ahead);
+  std::vector<UnsentFlux> flux;
+  for (size_t g = 0; g < groups_.size(); ++g) Spread(groups_[g], ahead[g], flux);
+  if (lit > 1) {
+    std::sort(flux.begin(), flux.end(),
+              [](const UnsentFlux& a, const UnsentFlux& b) { return a.emitter < b.emitter; });
+  }
+  return flux;
 }
 
 void Ambient::ChooseFluxPerRay(double flux_lm, double least_rays, Group& group) const {
@@ -239,12 +243,10 @@ std::vector<UnsentFlux> Ambient::Learn(int32_t of_group, const std::vector<Unsen
   group.squared_losses = group.squared_losses + gone;
   group.shot = group.shot + shot;
   group.rays += result.rays;
-  std::vector<Rgb> by_group(groups_.size());
-  for (int c = 0; c < 3; ++c) {
-    group.lost[c] += lost[c].value();
-    by_group[of_group][c] = kept[c].value();
-  }
-  return Spread(by_group);
+  for (int c = 0; c < 3; ++c) group.lost[c] += lost[c].value();
+  std::vector<UnsentFlux> rest;
+  Spread(group, {kept[0].value(), kept[1].value(), kept[2].value()}, rest);
+  return rest;
 }
 
 double Ambient::Left(const FluxLedger& ledger) const {

@@ -84,10 +84,11 @@ class Ambient {
  private:
   // What is known of a group.
   struct Group {
-    Rgb shape_lm;           // sum of what `Ahead` spreads in proportion to
-    Rgb guess;              // share lost at a bounce, before rays of this pass have told
-    double guess_rays = 0;  // what the guess counts for
-    Rgb shot, lost;         // so far [lm]
+    std::vector<PatchIndex> members;  // in order
+    Rgb shape_lm;                     // sum of what `Ahead` spreads in proportion to
+    Rgb guess;                        // share lost at a bounce, before rays of this pass have told
+    double guess_rays = 0;            // what the guess counts for
+    Rgb shot, lost;                   // so far [lm]
     int64_t rays = 0;
     Rgb losses, squared_losses;  // summed over its rays: the share of each that was lost
     double flux_per_ray_lm = 0;  // 0: not chosen yet
@@ -112,8 +113,8 @@ class Ambient {
   // By group; one more at the end for all emitters that are of no stiff group.
   std::vector<Unsent> SumByGroup(const std::vector<UnsentFlux>& flux) const;
   std::vector<Rgb> AheadByGroup(const std::vector<Unsent>& unsent) const;
-  // Flux of each group in the shape of the reflection of uniform irradiance.
-  std::vector<UnsentFlux> Spread(const std::vector<Rgb>& by_group) const;
+  // Appends flux of a group that is `sum`, in the shape of the reflection of uniform irradiance.
+  void Spread(const Group& group, Rgb sum, std::vector<UnsentFlux>& flux) const;
   // By group.
   std::vector<bool> StiffGroups() const;
   // kNoGroup for emitters that are of no stiff group.
