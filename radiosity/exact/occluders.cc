@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radiosity/core/bounds.h"
+
 namespace lambert {
 namespace {
 
@@ -10,19 +12,12 @@ constexpr int kLeafSize = 4;
 constexpr double kTolerance =
     1e-6;  // of the scene's diagonal: twice the height at which rays start
 
-struct Bounds {
-  Vec3 low, high;
-};
-
 Bounds BoundsOf(const std::vector<Triangle>& triangles, size_t begin, size_t end) {
-  Bounds b{triangles[begin][0], triangles[begin][0]};
+  Bounds bounds{triangles[begin][0], triangles[begin][0]};
   for (size_t k = begin; k < end; ++k) {
-    for (const Vec3& p : triangles[k]) {
-      b.low = {std::min(b.low.x, p.x), std::min(b.low.y, p.y), std::min(b.low.z, p.z)};
-      b.high = {std::max(b.high.x, p.x), std::max(b.high.y, p.y), std::max(b.high.z, p.z)};
-    }
+    for (const Vec3& p : triangles[k]) bounds.Add(p);
   }
-  return b;
+  return bounds;
 }
 
 bool HasBothSides(const Plane& plane, const std::vector<Triangle>& triangles, double tolerance) {
@@ -98,7 +93,7 @@ Occluders::Occluders(const PatchSet& patches) {
     if (!patches.is_back[i]) all.push_back(patches.corners[i]);
   }
   const Bounds bounds = BoundsOf(all, 0, all.size());
-  tolerance_m_ = kTolerance * Length(bounds.high - bounds.low);
+  tolerance_m_ = kTolerance * bounds.Diagonal();
   for (const Triangle& triangle : all) {
     if (HasBothSides(PlaneOf(triangle), all, tolerance_m_)) triangles_.push_back(triangle);
   }
@@ -108,8 +103,7 @@ Occluders::Occluders(const PatchSet& patches) {
 int Occluders::Build(int begin, int end) {
   const Bounds bounds = BoundsOf(triangles_, begin, end);
   const int node = static_cast<int>(nodes_.size());
-  nodes_.push_back(
-      {{(bounds.low + bounds.high) * 0.5, (bounds.high - bounds.low) * 0.5}, begin, end});
+  nodes_.push_back({{bounds.Center(), bounds.Size() * 0.5}, begin, end});
   if (end - begin > kLeafSize) {
     const int middle = (begin + end) / 2;
     Build(begin, middle);

@@ -10,8 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "radiosity/core/bounds.h"
 #include "radiosity/core/error.h"
-#include "radiosity/output/bounds.h"
 #include "radiosity/output/float_value.h"
 
 namespace lambert {

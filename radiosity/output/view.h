@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "radiosity/output/bounds.h"
+#include "radiosity/core/bounds.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/trace/ray_scene.h"
 

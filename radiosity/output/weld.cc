@@ -4,7 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "radiosity/output/bounds.h"
+#include "radiosity/core/bounds.h"
 
 namespace lambert {
 namespace {

@@ -5,12 +5,6 @@
 namespace lambert {
 namespace {
 
-Box Union(const Box& a, const Box& b) {
-  return {
-      {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-      {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
-}
-
 // A part of the order, and the box around it.
 struct Node {
   size_t index, begin, end;
@@ -23,7 +17,7 @@ struct Node {
 
 class PairFinder {
  public:
-  PairFinder(const std::vector<Box>& boxes, double slack,
+  PairFinder(const std::vector<Bounds>& boxes, double slack,
              absl::FunctionRef<void(size_t, size_t)> visit)
       : boxes_(boxes), slack_(slack), visit_(visit), around_(4 * boxes.size()) {
     Build(Root());
@@ -47,10 +41,11 @@ class PairFinder {
     const Node first = node.Child(0), second = node.Child(1);
     Build(first);
     Build(second);
-    around_[node.index] = Union(around_[first.index], around_[second.index]);
+    around_[node.index] = around_[first.index];
+    around_[node.index].Add(around_[second.index]);
   }
 
-  bool Meet(const Box& a, const Box& b) const {
+  bool Meet(const Bounds& a, const Bounds& b) const {
     return a.low.x <= b.high.x + slack_ && b.low.x <= a.high.x + slack_ &&
            a.low.y <= b.high.y + slack_ && b.low.y <= a.high.y + slack_ &&
            a.low.z <= b.high.z + slack_ && b.low.z <= a.high.z + slack_;
@@ -70,15 +65,15 @@ class PairFinder {
     }
   }
 
-  const std::vector<Box>& boxes_;
+  const std::vector<Bounds>& boxes_;
   const double slack_;
   const absl::FunctionRef<void(size_t, size_t)> visit_;
-  std::vector<Box> around_;  // by index of a node: the children of k are 2 k + 1 and 2 k + 2
+  std::vector<Bounds> around_;  // by index of a node: the children of k are 2 k + 1 and 2 k + 2
 };
 
 }  // namespace
 
-void ForEachMeetingPair(const std::vector<Box>& boxes, double slack,
+void ForEachMeetingPair(const std::vector<Bounds>& boxes, double slack,
                         absl::FunctionRef<void(size_t, size_t)> visit) {
   if (boxes.size() < 2) return;
   PairFinder finder(boxes, slack, visit);

@@ -24,7 +24,7 @@ struct Survey {
 
 absl::StatusOr<Survey> SurveyScene(const Scene& scene, const PatchOptions& options) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 low{kInfinity, kInfinity, kInfinity}, high = -low;
+  Bounds bounds{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
   Survey survey;
   absl::Status status = ForEachTriangle(scene, {}, [&](const PlacedTriangle& placed) {
     const Shape shape = Measure(placed.corners);
@@ -32,10 +32,7 @@ absl::StatusOr<Survey> SurveyScene(const Scene& scene, const PatchOptions& optio
       return SceneError(Where(placed.source), "its world position or its area is not finite",
                         "check the transforms of the node and its parents");
     }
-    for (const Vec3& p : placed.corners) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
+    for (const Vec3& p : placed.corners) bounds.Add(p);
     ++survey.triangles;
     survey.pieces += options.max_edge_m > 0
                          ? MinimumPieces(shape.area_m2, shape.longest_edge_m, options.max_edge_m)
@@ -46,7 +43,7 @@ absl::StatusOr<Survey> SurveyScene(const Scene& scene, const PatchOptions& optio
   if (survey.pieces > static_cast<double>(options.max_patches)) {
     return TooManyPatches(options.max_patches);
   }
-  if (survey.triangles > 0) survey.origin = low / 2 + high / 2;
+  if (survey.triangles > 0) survey.origin = bounds.low / 2 + bounds.high / 2;
   return survey;
 }
 

@@ -26,21 +26,14 @@ std::vector<Vec3> PlacesOf(const PatchSet& patches) {
   return list;
 }
 
-double Diagonal(const std::vector<Vec3>& places) {
-  Vec3 low = places.front(), high = low;
-  for (const Vec3& p : places) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return std::sqrt(Dot(high - low, high - low));
-}
-
 }  // namespace
 
 bool IsConvex(const PatchSet& patches) {
   const std::vector<Vec3> places = PlacesOf(patches);
   if (places.empty()) return true;
-  const double least = -kTolerance * Diagonal(places);
+  Bounds bounds{places.front(), places.front()};
+  for (const Vec3& p : places) bounds.Add(p);
+  const double least = -kTolerance * bounds.Diagonal();
   double tests = 0;
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     const Vec3 normal = PatchNormal(patches, i), corner = patches.corners[i][0];

@@ -41,11 +41,10 @@ Corners InDiagonals(const Corners& corners_m, double per_m) {
   return {corners_m[0] * per_m, corners_m[1] * per_m, corners_m[2] * per_m};
 }
 
-Box BoxOf(const Corners& c) {
-  const auto [low_x, high_x] = std::minmax({c[0].x, c[1].x, c[2].x});
-  const auto [low_y, high_y] = std::minmax({c[0].y, c[1].y, c[2].y});
-  const auto [low_z, high_z] = std::minmax({c[0].z, c[1].z, c[2].z});
-  return {{low_x, low_y, low_z}, {high_x, high_y, high_z}};
+Bounds BoundsOf(const Corners& corners) {
+  Bounds bounds{corners[0], corners[0]};
+  for (const Vec3& p : corners) bounds.Add(p);
+  return bounds;
 }
 
 double LongestEdge(const Corners& c) {
@@ -101,13 +100,13 @@ std::vector<uint64_t> SortByPlane(const PatchSet& patches, double per_m) {
 }  // namespace
 
 CoplanarOverlaps FindCoplanarOverlaps(const PatchSet& patches) {
-  const double per_m = 1 / Diagonal(patches);
+  const double per_m = 1 / BoundsOf(patches).Diagonal();
   const std::vector<uint64_t> entries = SortByPlane(patches, per_m);
   CoplanarOverlaps found;
   std::vector<bool> overlaps(patches.corners.size());
   std::vector<PatchIndex> members;  // of one cell
   std::vector<Corners> corners;
-  std::vector<Box> boxes;
+  std::vector<Bounds> boxes;
   const auto check = [&](size_t i, size_t j) {
     // The plane of the larger one is the better known.
     const bool swap = patches.area_m2[members[i]] < patches.area_m2[members[j]];
@@ -130,7 +129,7 @@ CoplanarOverlaps FindCoplanarOverlaps(const PatchSet& patches) {
     if (members.size() == 1) continue;
     for (PatchIndex member : members) {
       corners.push_back(InDiagonals(patches.corners[member], per_m));
-      boxes.push_back(BoxOf(corners.back()));
+      boxes.push_back(BoundsOf(corners.back()));
     }
     ForEachMeetingPair(boxes, kRounding, check);
   }

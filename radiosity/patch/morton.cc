@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "radiosity/core/bounds.h"
+
 namespace lambert {
 namespace {
 
@@ -27,17 +29,14 @@ uint64_t Cell(double distance, double edge) {
 
 std::vector<uint64_t> MortonCodes(const std::vector<Vec3>& points) {
   if (points.empty()) return {};
-  Vec3 low = points[0], high = points[0];
-  for (const Vec3& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vec3 size = high - low;
+  Bounds bounds{points[0], points[0]};
+  for (const Vec3& p : points) bounds.Add(p);
+  const Vec3 size = bounds.Size();
   const double edge = std::max({size.x, size.y, size.z});
   std::vector<uint64_t> codes;
   codes.reserve(points.size());
   for (const Vec3& p : points) {
-    const Vec3 d = p - low;
+    const Vec3 d = p - bounds.low;
     codes.push_back(SpreadBits(Cell(d.x, edge)) | SpreadBits(Cell(d.y, edge)) << 1 |
                     SpreadBits(Cell(d.z, edge)) << 2);
   }

@@ -17,15 +17,12 @@ Vec3 PatchCentroid(const PatchSet& patches, PatchIndex i) {
   return (a + b + c) / 3;
 }
 
-double Diagonal(const PatchSet& patches) {
-  Vec3 low = patches.corners[0][0], high = low;
+Bounds BoundsOf(const PatchSet& patches) {
+  Bounds bounds{patches.corners[0][0], patches.corners[0][0]};
   for (const auto& corners : patches.corners) {
-    for (const Vec3& p : corners) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
+    for (const Vec3& p : corners) bounds.Add(p);
   }
-  return Length(high - low);
+  return bounds;
 }
 
 std::vector<int32_t> NodesCalled(const std::vector<std::string>& node_names,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "radiosity/core/bounds.h"
 #include "radiosity/core/rgb.h"
 #include "radiosity/core/vec3.h"
 #include "radiosity/core/warning.h"
@@ -49,8 +50,8 @@ struct PatchSet {
 Vec3 PatchNormal(const PatchSet& patches, PatchIndex i);
 // Mean of the three corners, relative to `origin`.
 Vec3 PatchCentroid(const PatchSet& patches, PatchIndex i);
-// Length of the diagonal of the bounding box of all patches [m]. Requires: a patch.
-double Diagonal(const PatchSet& patches);
+// The box around all patches [m], relative to `origin`. Requires: a patch.
+Bounds BoundsOf(const PatchSet& patches);
 // The nodes that a user calls `name`: those of that name or, where there is none, that of this glTF
 // index. None: empty.
 std::vector<int32_t> NodesCalled(const std::vector<std::string>& node_names,

@@ -72,7 +72,7 @@ std::vector<bool> FindLightsOnSurfaces(const PatchSet& patches) {
   }
   if (by_x.empty()) return on_surface;
   std::sort(by_x.begin(), by_x.end());
-  const double near_m = kOnSurface * Diagonal(patches);
+  const double near_m = kOnSurface * BoundsOf(patches).Diagonal();
   for (const auto& corners : patches.corners) {
     const auto [low, high] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
     for (auto it = std::lower_bound(by_x.begin(), by_x.end(), std::pair(low - near_m, size_t{0}));

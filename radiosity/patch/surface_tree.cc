@@ -11,16 +11,6 @@ constexpr double kLeastCosine = 0.985;  // of a normal to the mean: 10 degrees
 constexpr double kMostThickness = 0.1;  // of a flat surface, over its radius
 constexpr double kLeastFill = 0.3;      // area over that of the larger face of the bounding box
 
-struct Box {
-  Vec3 low, high;
-  explicit Box(Vec3 p) : low(p), high(p) {}
-  void Add(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  Vec3 Size() const { return high - low; }
-};
-
 // The axis along which `size` is largest.
 Vec3 LongestAxis(Vec3 size) {
   if (size.x >= size.y && size.x >= size.z) return {1, 0, 0};
@@ -49,10 +39,10 @@ double Trust(int64_t hits_a, int64_t hits_b, double share) {
 
 // What a range of patches looks like.
 struct SurfaceTree::Extent {
-  Box box, normals, centroids;
+  Bounds box, normals, centroids;
   Vec3 normal, centroid;  // means by area
   double area_m2 = 0, least_cosine = 1, thickness_m = 0;
-  double radius_m() const { return 0.5 * Length(box.Size()); }
+  double radius_m() const { return 0.5 * box.Diagonal(); }
   bool IsFlat() const {
     return least_cosine >= kLeastCosine && thickness_m <= kMostThickness * radius_m();
   }
@@ -64,8 +54,9 @@ struct SurfaceTree::Extent {
 
 SurfaceTree::Extent SurfaceTree::Measure(PatchIndex begin, PatchIndex end) const {
   const PatchIndex first = order_[begin];
-  Extent extent{
-      Box(patches_.corners[first][0]), Box(normals_[first]), Box(centroids_[first]), {}, {}};
+  const Vec3 corner = patches_.corners[first][0], normal = normals_[first],
+             centroid = centroids_[first];
+  Extent extent{{corner, corner}, {normal, normal}, {centroid, centroid}, {}, {}};
   for (PatchIndex k = begin; k < end; ++k) {
     const PatchIndex i = order_[k];
     for (const Vec3& corner : patches_.corners[i]) extent.box.Add(corner);

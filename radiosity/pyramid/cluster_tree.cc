@@ -40,17 +40,14 @@ ClusterTree::ClusterTree(const Corners& corners, const std::vector<bool>& counte
 int32_t ClusterTree::Build(const Counted& patches, int32_t begin, int32_t end) {
   const int32_t index = static_cast<int32_t>(clusters_.size());
   clusters_.emplace_back();
-  Vec3 low = patches[begin][0], high = low;
+  Bounds bounds{patches[begin][0], patches[begin][0]};
   for (int32_t i = begin; i < end; ++i) {
-    for (const Vec3& p : patches[i]) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
+    for (const Vec3& p : patches[i]) bounds.Add(p);
   }
   Cluster cluster;
   cluster.begin = begin;
   cluster.end = end;
-  cluster.center = (low + high) * 0.5;
+  cluster.center = bounds.Center();
   for (int32_t i = begin; i < end; ++i) {
     for (const Vec3& p : patches[i]) {
       cluster.radius = std::max(cluster.radius, Length(p - cluster.center));

@@ -25,18 +25,15 @@ int32_t TargetTree::Build(const std::vector<double>& worth, PatchIndex begin, Pa
   const int32_t index = static_cast<int32_t>(nodes_.size());
   nodes_.emplace_back();
   Node node;
-  Vec3 low = patches_.corners[begin][0], high = low;
+  Bounds bounds{patches_.corners[begin][0], patches_.corners[begin][0]};
   for (PatchIndex j = begin; j < end; ++j) {
-    for (const Vec3& p : patches_.corners[j]) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
+    for (const Vec3& p : patches_.corners[j]) bounds.Add(p);
     const double weight = worth[j] * patches_.area_m2[j];
     node.worth += weight;
     node.normal = node.normal + weight * normals_[j];
   }
-  node.center = (low + high) * 0.5;
-  node.radius = Norm(high - low) * 0.5;
+  node.center = bounds.Center();
+  node.radius = Norm(bounds.Size()) * 0.5;
   if (end - begin == 1) {
     node.patch = begin;
   } else {

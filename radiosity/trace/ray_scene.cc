@@ -140,15 +140,9 @@ struct RayScene::Impl {
 };
 
 void RayScene::Impl::Place(const PatchSet& patches) {
-  Vec3 low = patches.corners[0][0], high = low;
-  for (const auto& triangle : patches.corners) {
-    for (const Vec3& p : triangle) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  }
-  center = (low + high) * 0.5;
-  scale = std::ldexp(1.0, -std::ilogb(Length(high - low)));
+  const Bounds bounds = BoundsOf(patches);
+  center = bounds.Center();
+  scale = std::ldexp(1.0, -std::ilogb(bounds.Diagonal()));
   const auto backs = std::count(patches.is_back.begin(), patches.is_back.end(), 1);
   const size_t triangles = patches.corners.size() - static_cast<size_t>(backs);
   faces.back.reserve(triangles);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "radiosity/output/bounds.h"
+#include "radiosity/core/bounds.h"
 #include "tests/output/known_light.h"
 #include "tests/support/scenes.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "radiosity/output/bounds.h"
+#include "radiosity/core/bounds.h"
 #include "tests/support/scenes.h"
 
 namespace lambert {

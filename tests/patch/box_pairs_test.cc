@@ -11,7 +11,7 @@ namespace {
 
 using Pairs = std::multiset<std::pair<size_t, size_t>>;
 
-Pairs Found(const std::vector<Box>& boxes, double slack) {
+Pairs Found(const std::vector<Bounds>& boxes, double slack) {
   Pairs pairs;
   ForEachMeetingPair(boxes, slack, [&](size_t i, size_t j) { pairs.emplace(i, j); });
   return pairs;
@@ -21,7 +21,7 @@ TEST(ForEachMeetingPair, VisitsEveryPairOnceThatASearchOfAllFinds) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> where(0, 1), size(0, 0.3);
   for (size_t count : {0, 1, 2, 3, 64, 100}) {
-    std::vector<Box> boxes;
+    std::vector<Bounds> boxes;
     for (size_t k = 0; k < count; ++k) {
       const Vec3 low{where(random), where(random), where(random)};
       boxes.push_back({low, low + Vec3{size(random), size(random), size(random)}});

@@ -22,7 +22,7 @@ TEST(NodesCalled, FindsNoneForWhatIsNeither) {
 }
 
 TEST(PatchSet, TheDiagonalIsThatOfAllPatches) {
-  EXPECT_DOUBLE_EQ(Diagonal(PatchesOf(MakeOffice(1))), std::sqrt(36 + 9 + 64));
+  EXPECT_DOUBLE_EQ(BoundsOf(PatchesOf(MakeOffice(1))).Diagonal(), std::sqrt(36 + 9 + 64));
 }
 
 }  // namespace
