@@ -158,10 +158,7 @@ std::vector<UnsentFlux> Ambient::Ahead(const FluxLedger& ledger) {
   }
   std::vector<UnsentFlux> flux;
   for (size_t g = 0; g < groups_.size(); ++g) Spread(groups_[g], ahead[g], flux);
-  if (lit > 1) {
-    std::sort(flux.begin(), flux.end(),
-              [](const UnsentFlux& a, const UnsentFlux& b) { return a.emitter < b.emitter; });
-  }
+  if (lit > 1) std::ranges::sort(flux, {}, &UnsentFlux::emitter);
   return flux;
 }
 

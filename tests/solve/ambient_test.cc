@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "tests/support/scenes.h"
 
 namespace lambert {
@@ -152,6 +155,14 @@ TEST(Ambient, KeepsGroupsApart) {
   ambient.Learn(parts[0].group, parts[0].unsent, shot.plan, shot.result);
   for (const UnsentFlux& flux : ambient.Ahead(ledger)) EXPECT_EQ(groups[flux.emitter], 0);
   EXPECT_FALSE(ambient.IsDone(ledger, 1e9)) << "one group has yet to be shot";
+
+  shot.plan.visits[0].emitter = parts[1].unsent[0].emitter;
+  ambient.Learn(parts[1].group, parts[1].unsent, shot.plan, shot.result);
+  const std::vector<UnsentFlux> ahead = ambient.Ahead(ledger);
+  EXPECT_TRUE(std::ranges::is_sorted(ahead, {}, &UnsentFlux::emitter));
+  std::set<int32_t> shot_ahead;
+  for (const UnsentFlux& flux : ahead) shot_ahead.insert(groups[flux.emitter]);
+  EXPECT_EQ(shot_ahead, (std::set<int32_t>{0, 1}));
 }
 
 }  // namespace
