@@ -29,6 +29,16 @@ function(lambert_room name)
   target_link_libraries(lambert_${name} PUBLIC lambert_flags ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE})
 endfunction()
 
+# lambert_program(NAME SOURCES ... LIBS ...): an installed program with a command line and a log.
+function(lambert_program name)
+  cmake_parse_arguments(PROGRAM "" "" "SOURCES;LIBS" ${ARGN})
+  find_package(CLI11 CONFIG REQUIRED)
+  find_package(spdlog REQUIRED)
+  add_executable(${name} ${PROGRAM_SOURCES})
+  target_link_libraries(${name} PRIVATE ${PROGRAM_LIBS} CLI11::CLI11 spdlog::spdlog)
+  install(TARGETS ${name})
+endfunction()
+
 # lambert_test(NAME SOURCES ... LIBS ... [LABELS ...]): a GoogleTest program, one ctest entry a test. Under
 # ctest, rapidcheck draws the same examples each time.
 function(lambert_test name)

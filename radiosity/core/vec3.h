@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lambert {
@@ -29,5 +30,12 @@ inline Vec3 Normalized(Vec3 a) { return a / Length(a); }
 inline bool IsFinite(Vec3 a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
+
+// From and to float32, as vertices and rays are stored.
+inline Vec3 FromFloats(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
+inline std::array<float, 3> ToFloats(Vec3 a) {
+  return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
+inline void ToFloats(Vec3 a, float to[3]) { std::ranges::copy(ToFloats(a), to); }
 
 }  // namespace lambert

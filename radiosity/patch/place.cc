@@ -3,12 +3,6 @@
 #include <utility>
 
 namespace lambert {
-namespace {
-
-Vec3 ToVec3(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
-
-}  // namespace
-
 absl::Status ForEachTriangle(const Scene& scene, Vec3 origin,
                              absl::FunctionRef<absl::Status(const PlacedTriangle&)> visit) {
   for (const Instance& instance : scene.instances) {
@@ -23,7 +17,7 @@ absl::Status ForEachTriangle(const Scene& scene, Vec3 origin,
         placed.vertices = primitive.triangles[t];
         if (mirrors) std::swap(placed.vertices[1], placed.vertices[2]);
         for (int k = 0; k < 3; ++k) {
-          placed.corners[k] = world.Point(ToVec3(primitive.positions[placed.vertices[k]]));
+          placed.corners[k] = world.Point(FromFloats(primitive.positions[placed.vertices[k]]));
         }
         placed.primitive = &primitive;
         placed.source = {instance.node, instance.mesh, static_cast<int32_t>(p),

@@ -67,10 +67,7 @@ DiskPiece PieceOf(const Vec3 corners[3], const Vec3 bound[3]) {
   for (int k = 0; k < 3; ++k) {
     out[k][0] = static_cast<float>(points[k]->x);
     out[k][1] = static_cast<float>(points[k]->y);
-    const Vec3 side = Normalized(Cross(corners[k], corners[(k + 1) % 3]));
-    piece.side[k][0] = static_cast<float>(side.x);
-    piece.side[k][1] = static_cast<float>(side.y);
-    piece.side[k][2] = static_cast<float>(side.z);
+    ToFloats(Normalized(Cross(corners[k], corners[(k + 1) % 3])), piece.side[k]);
   }
   return piece;
 }

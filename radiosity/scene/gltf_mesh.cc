@@ -112,8 +112,6 @@ class VertexCopier {
   absl::flat_hash_map<uint32_t, uint32_t> copied_;
 };
 
-Vec3 ToVec3(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
-
 absl::Status ReadTriangles(const Attributes& attributes, const VertexNormals& normals, int mode,
                            const std::string& where, Primitive* primitive) {
   const uint64_t triangles = TriangleCount(mode, attributes.ListedVertices());
@@ -137,7 +135,7 @@ absl::Status ReadTriangles(const Attributes& attributes, const VertexNormals& no
         return SceneError(where, absl::StrCat("position ", i, " is not finite"), kExportAgain);
       }
       triangle[k] = *vertex;
-      corners[k] = ToVec3(primitive->positions[*vertex]);
+      corners[k] = FromFloats(primitive->positions[*vertex]);
     }
     if (normals.IsBad(vertices, corners)) ++primitive->bad_normals;
     primitive->triangles.push_back(triangle);

@@ -101,12 +101,6 @@ inline void ForEachGroup(const RayNumbers& source, uint32_t begin, uint32_t end,
   }
 }
 
-void Copy(Vec3 from, float to[3]) {
-  to[0] = static_cast<float>(from.x);
-  to[1] = static_cast<float>(from.y);
-  to[2] = static_cast<float>(from.z);
-}
-
 }  // namespace
 
 Emitters::Emitters(const PatchSet& patches, const RayScene& scene, const SurfaceTree* tree) {
@@ -114,16 +108,16 @@ Emitters::Emitters(const PatchSet& patches, const RayScene& scene, const Surface
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     const auto& corner = patches.corners[i];
     EmitterFrame& frame = frames_.emplace_back();
-    Copy(scene.ToTrace(corner[0]), frame.corner);
-    Copy((corner[1] - corner[0]) * scene.scale(), frame.edge1);
-    Copy((corner[2] - corner[0]) * scene.scale(), frame.edge2);
+    ToFloats(scene.ToTrace(corner[0]), frame.corner);
+    ToFloats((corner[1] - corner[0]) * scene.scale(), frame.edge1);
+    ToFloats((corner[2] - corner[0]) * scene.scale(), frame.edge2);
     const LocalFrame local =
         tree != nullptr ? PlaceFrame(patches, *tree, i) : PatchFrame(patches, i);
-    Copy(local.x, frame.x);
-    Copy(local.z, frame.z);
+    ToFloats(local.x, frame.x);
+    ToFloats(local.z, frame.z);
   }
   for (const PointLight& light : patches.point_lights) {
-    Copy(scene.ToTrace(light.position), point_lights_.emplace_back().data());
+    ToFloats(scene.ToTrace(light.position), point_lights_.emplace_back().data());
   }
 }
 

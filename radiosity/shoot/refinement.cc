@@ -12,12 +12,6 @@ namespace {
 constexpr float kLeastCosine = 0.1f;
 constexpr float kPi = std::numbers::pi_v<float>;
 
-void Put(Vec3 from, float to[3]) {
-  to[0] = static_cast<float>(from.x);
-  to[1] = static_cast<float>(from.y);
-  to[2] = static_cast<float>(from.z);
-}
-
 float Dot3(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 }  // namespace
@@ -37,8 +31,8 @@ Refinement::Refinement(const PatchSet& patches, const RayScene& scene, const Sur
   }
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     Leaf& leaf = leaves_[i];
-    Put(scene.ToTrace(PatchCentroid(patches, i)), leaf.centroid);
-    Put(PatchNormal(patches, i), leaf.normal);
+    ToFloats(scene.ToTrace(PatchCentroid(patches, i)), leaf.centroid);
+    ToFloats(PatchNormal(patches, i), leaf.normal);
     leaf.area = static_cast<float>(patches.area_m2[i] * area_scale);
     leaf.parent = tree.ParentOf(i);
     leaf.surface = leaf.parent < 0 ? leaf.area : surface[leaf.parent];

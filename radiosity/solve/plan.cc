@@ -77,9 +77,10 @@ absl::Status Refused(const char* option, Part part, const std::string& why) {
 
 absl::Status ValidateFor(const PatchSet& patches, const SolveOptions& options) {
   if (absl::Status status = ValidateFor(patches, options.shoot); !status.ok()) return status;
+  const Parts& asked = options.shoot.parts;
+  if (asked == Parts{}) return absl::OkStatus();
   SolveOptions solve = options;
   solve.shoot.method = ResolveMethod(patches, options).method;
-  const Parts& asked = options.shoot.parts;
   PartSet there;
   for (const Need& need : FindNeeds(patches, solve)) {
     there.Add(need.part);

@@ -153,9 +153,7 @@ void RayScene::Impl::Place(const PatchSet& patches) {
     if (backs > 0) faces.front.push_back(i);
     faces.back.push_back(patches.twin[i]);
     for (const Vec3& p : patches.corners[i]) {
-      const Vec3 q = (p - center) * scale;
-      indices.push_back(
-          list.Put({static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)}));
+      indices.push_back(list.Put(ToFloats((p - center) * scale)));
     }
   }
   vertices.insert(vertices.end(), kPadding, 0.0f);
@@ -303,12 +301,8 @@ void RayScene::Occlude(RayBatch& batch) const {
 }
 
 PictureHit RayScene::Cast(Vec3 origin, Vec3 direction) const {
-  const Vec3 start = ToTrace(origin), d = Normalized(direction);
-  const float from[3] = {static_cast<float>(start.x), static_cast<float>(start.y),
-                         static_cast<float>(start.z)};
-  const float along[3] = {static_cast<float>(d.x), static_cast<float>(d.y),
-                          static_cast<float>(d.z)};
-  const RTCRayHit ray = impl_->CastCulled(from, along);
+  const RTCRayHit ray =
+      impl_->CastCulled(ToFloats(ToTrace(origin)).data(), ToFloats(Normalized(direction)).data());
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   PictureHit hit{impl_->SideHit(ray), ray.hit.u, ray.hit.v, ray.ray.tfar / scale()};
   // The back runs through its corners the other way: corners 1 and 2 change places.

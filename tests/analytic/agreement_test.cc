@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -12,6 +10,7 @@
 #include "tests/analytic/gather.h"
 #include "tests/analytic/methods.h"
 #include "tests/analytic/seeds.h"
+#include "tests/support/read_file.h"
 #include "tests/support/scenes.h"
 
 namespace lambert {
@@ -142,11 +141,9 @@ TEST(Agreement, TheHierarchyIsNearerToTheTruthWherePatchesAreFine) {
 TEST(Agreement, OnACornellBox) { ExpectAllAgree(PatchesOf(MakeCornell(4)), 4000, 1000000); }
 
 TEST(Agreement, OnThePaperLikeRoomOf1450Patches) {
-  std::ifstream file("../shared/scenes/real/d14_paperlike_1450.glb", std::ios::binary);
-  if (!file) GTEST_SKIP() << "../shared/scenes is not here";
-  std::stringstream bytes;
-  bytes << file.rdbuf();
-  const auto scene = LoadGltf({"d14.glb", bytes.str(), {}});
+  const std::string bytes = ReadFile("../shared/scenes/real/d14_paperlike_1450.glb");
+  if (bytes.empty()) GTEST_SKIP() << "../shared/scenes is not here";
+  const auto scene = LoadGltf({"d14.glb", bytes, {}});
   ASSERT_TRUE(scene.ok()) << scene.status();
   ExpectAllAgree(PatchesOf(*scene), 4000, 1000000);
 }

@@ -3,6 +3,7 @@
 // their size away.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <random>
 
 #include "tests/analytic/seeds.h"
@@ -34,10 +35,7 @@ Scene PlacedByNodes(Scene scene, const Transform& placement) {
 Scene PlacedInVertices(Scene scene, const Transform& placement) {
   for (Mesh& mesh : scene.meshes) {
     for (Primitive& primitive : mesh.primitives) {
-      for (auto& p : primitive.positions) {
-        const Vec3 q = placement.Point({p[0], p[1], p[2]});
-        p = {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};
-      }
+      for (auto& p : primitive.positions) p = ToFloats(placement.Point(FromFloats(p)));
     }
   }
   return scene;
@@ -108,29 +106,31 @@ void ExpectAnswers(const PatchSet& patches, Method method, const std::vector<Ans
   ExpectTruths(patches, WithRays(method, 40000), truths);
 }
 
-class Placement : public testing::TestWithParam<Method> {};
-
-TEST_P(Placement, ByNodesChangesNoRadiosity) {
-  std::mt19937 random(1);
+// Each closed form by several placements up to `most_sizes_away`.
+void ForEachPlacement(int seed, double most_sizes_away,
+                      const std::function<void(const ClosedForm&, const Transform&)>& check) {
+  std::mt19937 random(seed);
   for (const ClosedForm& form : ClosedForms()) {
     for (int k = 0; k < kPlacements; ++k) {
       SCOPED_TRACE(testing::Message() << form.name << ", placement " << k);
-      const Transform placement = RandomPlacement(&random, 1000);
-      ExpectAnswers(PatchesOf(PlacedByNodes(form.scene, placement)), GetParam(), form.answers);
+      check(form, RandomPlacement(&random, most_sizes_away));
     }
   }
 }
 
+class Placement : public testing::TestWithParam<Method> {};
+
+TEST_P(Placement, ByNodesChangesNoRadiosity) {
+  ForEachPlacement(1, 1000, [](const ClosedForm& form, const Transform& placement) {
+    ExpectAnswers(PatchesOf(PlacedByNodes(form.scene, placement)), GetParam(), form.answers);
+  });
+}
+
 // Rounding moves vertices by up to 1e-7 of the scene's size and distance: answers by hardly more.
 TEST_P(Placement, InVerticesChangesNoRadiosity) {
-  std::mt19937 random(2);
-  for (const ClosedForm& form : ClosedForms()) {
-    for (int k = 0; k < kPlacements; ++k) {
-      SCOPED_TRACE(testing::Message() << form.name << ", placement " << k);
-      const Transform placement = RandomPlacement(&random, 3);
-      ExpectAnswers(PatchesOf(PlacedInVertices(form.scene, placement)), GetParam(), form.answers);
-    }
-  }
+  ForEachPlacement(2, 3, [](const ClosedForm& form, const Transform& placement) {
+    ExpectAnswers(PatchesOf(PlacedInVertices(form.scene, placement)), GetParam(), form.answers);
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Placement, testing::Values(Method::kPmcr, Method::kPhs),
@@ -138,17 +138,13 @@ INSTANTIATE_TEST_SUITE_P(All, Placement, testing::Values(Method::kPmcr, Method::
 
 // Digits are those of corners in double precision, relative to a scene up to a thousand sizes away.
 TEST(PlacementOfExact, ByNodesChangesNoRadiosity) {
-  std::mt19937 random(3);
-  for (const ClosedForm& form : ClosedForms()) {
-    for (int k = 0; k < kPlacements; ++k) {
-      SCOPED_TRACE(testing::Message() << form.name << ", placement " << k);
-      const PatchSet patches = PatchesOf(PlacedByNodes(form.scene, RandomPlacement(&random, 1000)));
-      const Solution s = SolveSeeds(patches, WithRays(Method::kExact, 1000), 1).at(0);
-      for (const Answer& a : form.answers) {
-        EXPECT_NEAR(MeanOf(patches, s, a.node, a.primitive), a.radiosity, 1e-10) << a.what;
-      }
+  ForEachPlacement(3, 1000, [](const ClosedForm& form, const Transform& placement) {
+    const PatchSet patches = PatchesOf(PlacedByNodes(form.scene, placement));
+    const Solution s = SolveSeeds(patches, WithRays(Method::kExact, 1000), 1).at(0);
+    for (const Answer& a : form.answers) {
+      EXPECT_NEAR(MeanOf(patches, s, a.node, a.primitive), a.radiosity, 1e-10) << a.what;
     }
-  }
+  });
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
@@ -18,17 +16,13 @@
 #include "radiosity/solve/plan.h"
 #include "radiosity/solve/solver.h"
 #include "tests/analytic/stiff_case.h"
+#include "tests/support/read_file.h"
 
 namespace lambert {
 namespace {
 
 using Json = nlohmann::json;
 constexpr const char* kFolder = "../shared/scenes/stiff/";
-
-std::string ReadFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 void ExpectSound(const std::vector<Solution>& solutions) {
   for (const Solution& s : solutions) {

@@ -4,6 +4,7 @@
 
 #include "radiosity/core/error.h"
 #include "tests/output/known_light.h"
+#include "tests/support/read_file.h"
 
 namespace lambert {
 namespace {

@@ -47,11 +47,4 @@ std::string TestFolder() {
   return folders.emplace_back(std::make_unique<TemporaryFolder>())->path();
 }
 
-std::string ReadFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream bytes;
-  bytes << file.rdbuf();
-  return bytes.str();
-}
-
 }  // namespace lambert

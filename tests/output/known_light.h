@@ -20,6 +20,4 @@ RunRecord RecordOf(const PatchSet& patches, const std::function<Rgb(Vec3)>& irra
 // A new folder of this test's own under the temporary folder.
 std::string TestFolder();
 
-std::string ReadFile(const std::string& path);
-
 }  // namespace lambert

@@ -8,6 +8,7 @@
 #include "radiosity/core/error.h"
 #include "radiosity/output/output_file.h"
 #include "tests/output/known_light.h"
+#include "tests/support/read_file.h"
 #include "tests/support/scenes.h"
 
 namespace lambert {

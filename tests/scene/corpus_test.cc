@@ -3,22 +3,16 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "radiosity/core/error.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/scene/load_gltf.h"
+#include "tests/support/read_file.h"
 
 namespace lambert {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string ReadFile(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 SceneBundle ReadBundle(const fs::path& path) {
   SceneBundle bundle{path.filename(), ReadFile(path), {}};

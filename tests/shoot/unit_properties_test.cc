@@ -194,27 +194,5 @@ RC_GTEST_PROP(CheckLedger, NoticesHitsThatCannotBe, ()) {
   }
 }
 
-// What the ledger cannot tell, as unit.h says: only a second run of the unit can.
-TEST(CheckLedger, DoesNotNoticeWhatTheHeaderNames) {
-  Booked honest;
-  honest.unit.visits = {{0, 8, 0, 8, {80, 160, 0}}};
-  honest.result.deposits = {{20, 40, 0, 2, 1}, {30, 60, 0, 3, 3}};
-  honest.result.shot = {80, 160, 0};
-  honest.result.escaped = {30, 60, 0};
-  honest.result.rays = 8;
-  honest.result.sightings = {{0, 1, 1, 1}};
-  const auto accepts = [&honest](auto change) {
-    UnitResult faulty = honest.result;
-    change(faulty);
-    return CheckLedger(honest.unit, faulty).ok() &&
-           EncodeUnitResult(faulty) != EncodeUnitResult(honest.result);
-  };
-  EXPECT_TRUE(accepts([](UnitResult& r) { r.deposits[1].patch = 4; }));
-  EXPECT_TRUE(accepts([](UnitResult& r) { r.deposits[0].hits = 1; }));
-  EXPECT_TRUE(accepts([](UnitResult& r) { r.sightings[0].patch = 3; }));
-  EXPECT_TRUE(accepts([](UnitResult& r) { --r.deposits[0].r, ++r.deposits[1].r; }));
-  EXPECT_TRUE(accepts([](UnitResult& r) { ++r.shot[1], ++r.escaped[1]; }));
-}
-
 }  // namespace
 }  // namespace lambert

@@ -52,6 +52,23 @@ TEST(CheckLedger, AcceptsAResultThatBalances) {
   EXPECT_TRUE(CheckLedger(booked.unit, booked.result).ok());
 }
 
+// What the ledger cannot tell, as unit.h says: only a second run of the unit can.
+TEST(CheckLedger, DoesNotNoticeWhatTheHeaderNames) {
+  Booked honest = Balanced();
+  honest.result.sightings = {{0, 1, 1, 1}};
+  const auto accepts = [&honest](auto change) {
+    UnitResult faulty = honest.result;
+    change(faulty);
+    return CheckLedger(honest.unit, faulty).ok() &&
+           EncodeUnitResult(faulty) != EncodeUnitResult(honest.result);
+  };
+  EXPECT_TRUE(accepts([](UnitResult& r) { r.deposits[1].patch = 4; }));
+  EXPECT_TRUE(accepts([](UnitResult& r) { r.deposits[0].hits = 1; }));
+  EXPECT_TRUE(accepts([](UnitResult& r) { r.sightings[0].patch = 3; }));
+  EXPECT_TRUE(accepts([](UnitResult& r) { --r.deposits[0].r, ++r.deposits[1].r; }));
+  EXPECT_TRUE(accepts([](UnitResult& r) { ++r.shot[1], ++r.escaped[1]; }));
+}
+
 template <typename Forge>
 void ExpectRefused(const char* what, Forge forge) {
   Booked booked = Balanced();

@@ -13,10 +13,6 @@ namespace {
 
 constexpr Rgb kWhite{0.75, 0.75, 0.75}, kRed{0.63, 0.06, 0.05}, kGreen{0.14, 0.45, 0.09};
 
-std::array<float, 3> ToFloat(Vec3 p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
-
 // Where a box has its faces: a corner and the two edges whose cross product points inward.
 struct Face {
   Vec3 origin, u, v;
@@ -33,7 +29,7 @@ void AppendQuad(const Face& face, int n, Primitive* primitive) {
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
       primitive->positions.push_back(
-          ToFloat(face.origin + face.u * (1.0 * i / n) + face.v * (1.0 * j / n)));
+          ToFloats(face.origin + face.u * (1.0 * i / n) + face.v * (1.0 * j / n)));
     }
   }
   const uint32_t row = n + 1;
@@ -250,7 +246,7 @@ Scene MakeIcosphere(int splits, const Paint& paint) {
   }
   Scene scene;
   Mesh mesh{"sphere", std::vector<Primitive>(1)};
-  for (const Vec3& p : points) mesh.primitives[0].positions.push_back(ToFloat(Normalized(p)));
+  for (const Vec3& p : points) mesh.primitives[0].positions.push_back(ToFloats(Normalized(p)));
   for (const auto& [a, b, c] : faces) mesh.primitives[0].triangles.push_back({a, c, b});
   mesh.primitives[0].material = AddMaterial(paint, "sphere", &scene);
   AddMesh(std::move(mesh), &scene);
