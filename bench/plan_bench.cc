@@ -1,5 +1,6 @@
-// plan_bench SCENE.glb PART METHOD RAYS TURNS [MAX_EDGE]: what a part of the work costs where the
-// plan leaves it out.
+// plan_bench SCENE.glb PART|all METHOD RAYS TURNS [MAX_EDGE]: what a part of the work costs where
+// the plan leaves it out; `all`: each part that the plan leaves out and would do where it is asked
+// to.
 //
 // Solves the scene with the part and without it, turn by turn, each time in a process of its own
 // and in one thread, with every unit and result encoded and decoded as on the wire. Prints, for
@@ -11,6 +12,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -139,36 +141,75 @@ std::shared_ptr<const PatchSet> Load(const char* path, double max_edge_m) {
   return std::make_shared<const PatchSet>(*std::move(patches));
 }
 
-int Run(int count, char** arguments) {
-  if (count < 6) Fail("plan_bench SCENE.glb PART METHOD RAYS TURNS [MAX_EDGE]");
-  const auto patches = Load(arguments[1], count > 6 ? std::atof(arguments[6]) : 0);
-  SolveOptions sides[2];
-  for (SolveOptions& side : sides) {
-    Parts& parts = side.shoot.parts;
-    const bool read = (&side == sides ? parts.with : parts.without).Read(arguments[2]);
-    const auto method = ParseMethod(arguments[3]);
-    if (!read || !method.ok()) Fail("no such part or method");
-    side.shoot.method = *method;
-    side.max_rays = static_cast<int64_t>(std::atof(arguments[4]));
-    if (absl::Status status = ValidateFor(*patches, side); !status.ok()) {
-      Fail(std::string(status.message()));
-    }
+struct Case {
+  std::shared_ptr<const PatchSet> patches;
+  SolveOptions options;
+  int turns = 1;
+};
+
+bool LeavesOut(const Plan& plan, Part part) {
+  return std::any_of(plan.items.begin(), plan.items.end(), [part](const PlanItem& item) {
+    return item.left_out && item.part == PartName(part);
+  });
+}
+
+// With the part, and without it: as planned, where the plan leaves it out. Fails where the part
+// cannot be forced.
+absl::StatusOr<std::array<SolveOptions, 2>> Sides(const Case& run, const Plan& plan, Part part) {
+  std::array<SolveOptions, 2> sides = {run.options, run.options};
+  sides[0].shoot.parts.with.Add(part);
+  if (!LeavesOut(plan, part)) sides[1].shoot.parts.without.Add(part);
+  for (const SolveOptions& side : sides) {
+    if (absl::Status status = ValidateFor(*run.patches, side); !status.ok()) return status;
   }
+  return sides;
+}
+
+void Measure(const Case& run, const std::array<SolveOptions, 2>& sides, const char* part) {
   std::vector<Numbers> runs[2], ratios;
-  for (int turn = 0; turn < std::atoi(arguments[5]); ++turn) {
-    for (int side : {turn % 2, 1 - turn % 2})
-      runs[side].push_back(SolveApart(patches, sides[side]));
+  for (int turn = 0; turn < run.turns; ++turn) {
+    for (int side : {turn % 2, 1 - turn % 2}) {
+      runs[side].push_back(SolveApart(run.patches, sides[side]));
+    }
     Numbers& ratio = ratios.emplace_back();
     for (int k = 0; k < kCount; ++k) {
       ratio.of[k] = runs[0].back().of[k] / runs[1].back().of[k];
     }
   }
-  std::printf("%s, %d patches, %s\n%-10s %12s %12s %8s\n", arguments[1], patches->size(),
-              arguments[3], arguments[2], "with", "without", "ratio");
+  std::printf("%-13s %12s %12s %8s\n", part, "with", "without", "ratio");
   for (int k = 0; k < kCount; ++k) {
-    const auto value = [k](const Numbers& run) { return run.of[k]; };
-    std::printf("%-10s %12.5g %12.5g %8.3f\n", kNames[k], Median(runs[0], value),
+    const auto value = [k](const Numbers& numbers) { return numbers.of[k]; };
+    std::printf("%-13s %12.5g %12.5g %8.3f\n", kNames[k], Median(runs[0], value),
                 Median(runs[1], value), Median(ratios, value));
+  }
+  std::fflush(stdout);
+}
+
+int Run(int count, char** arguments) {
+  if (count < 6) Fail("plan_bench SCENE.glb PART|all METHOD RAYS TURNS [MAX_EDGE]");
+  Case run{Load(arguments[1], count > 6 ? std::atof(arguments[6]) : 0), {}, 1};
+  const auto method = ParseMethod(arguments[3]);
+  if (!method.ok()) Fail(std::string(method.status().message()));
+  run.options.shoot.method = *method;
+  run.options.max_rays = static_cast<int64_t>(std::atof(arguments[4]));
+  run.turns = std::atoi(arguments[5]);
+
+  const Plan plan = MakePlan(*run.patches, run.options);
+  PartSet parts;
+  if (std::string(arguments[2]) == "all") {
+    for (Part part : AllParts()) {
+      if (LeavesOut(plan, part) && Sides(run, plan, part).ok()) parts.Add(part);
+    }
+  } else if (!parts.Read(arguments[2])) {
+    Fail("no such part");
+  }
+  std::printf("%s, %d patches, %s: %s\n", arguments[1], run.patches->size(),
+              MethodName(plan.options.shoot.method), parts.Text().c_str());
+  for (Part part : AllParts()) {
+    if (!parts.Has(part)) continue;
+    const auto sides = Sides(run, plan, part);
+    if (!sides.ok()) Fail(std::string(sides.status().message()));
+    Measure(run, *sides, PartName(part));
   }
   return 0;
 }

@@ -117,11 +117,11 @@ absl::StatusOr<std::string> Blobs::Download(const BlobRef& blob, const std::stri
           // A server that never stops must not fill the memory.
           if (static_cast<int64_t>(bytes.size()) > blob.size_bytes) context.TryCancel();
         }
-        return reader->Finish();
+        const grpc::Status ended = reader->Finish();
+        return static_cast<int64_t>(bytes.size()) > blob.size_bytes ? grpc::Status::OK : ended;
       });
-  const bool too_long = static_cast<int64_t>(bytes.size()) > blob.size_bytes;
-  if (!status.ok() && !too_long) return status;
-  if (too_long || Sha256Hex(bytes) != blob.sha256) {
+  if (!status.ok()) return status;
+  if (Sha256Hex(bytes) != blob.sha256) {
     return MakeError(absl::StatusCode::kDataLoss,
                      {"BLOB_CORRUPT", what, "the bytes that arrived are not those that were named",
                       "fetch again; if it stays, the server's disk is damaged"});

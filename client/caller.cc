@@ -13,9 +13,11 @@ namespace {
 constexpr std::chrono::duration<double> kFirstPause{0.1};
 constexpr std::chrono::duration<double> kLongestPause{2.0};
 
+// A call that nobody here cancelled was cut off by a server that goes.
 bool IsAway(const grpc::Status& status) {
   return status.error_code() == grpc::StatusCode::UNAVAILABLE ||
-         status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED;
+         status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED ||
+         status.error_code() == grpc::StatusCode::CANCELLED;
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ class Caller {
   // Runs `attempt` until it succeeds, fails for another reason than reachability, or patience ends:
   // then UNAVAILABLE with reason SERVER_UNREACHABLE, whose hint is `hint`. `attempt` must be safe
   // to repeat. An attempt that made headway (`Reached` was called in it) gets all the patience
-  // again. After Abort: CANCELLED, reason INTERRUPTED. `where` names what the call is about.
+  // again; one that cancels itself must not say so, as only a server that goes does. After Abort:
+  // CANCELLED, reason INTERRUPTED. `where` names what the call is about.
   absl::Status Call(const std::string& where, std::chrono::duration<double> deadline,
                     const std::function<grpc::Status(grpc::ClientContext&)>& attempt,
                     const std::string& hint = "start the server, or give another --server");

@@ -109,7 +109,8 @@ absl::StatusOr<Job> WatchJob(v1::SnapshotService::StubInterface& stub, Caller& c
       refused = watcher.Take(response);
       if (!refused.ok()) context.TryCancel();
     }
-    return reader->Finish();
+    const grpc::Status status = reader->Finish();
+    return refused.ok() ? status : grpc::Status::OK;
   };
   const absl::Status status = caller.Call(
       job, std::chrono::duration<double>(0), attempt,

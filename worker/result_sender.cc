@@ -60,8 +60,9 @@ void ResultSender::SendOne(const Item& item) {
   while (true) {
     const absl::StatusOr<v1::SubmitUnitResultResponse> sent = link_->Submit(header, bytes);
     if (sent.ok()) return;
-    const bool is_worth_retrying =
-        absl::IsUnavailable(sent.status()) || absl::IsDeadlineExceeded(sent.status());
+    const bool is_worth_retrying = absl::IsUnavailable(sent.status()) ||
+                                   absl::IsDeadlineExceeded(sent.status()) ||
+                                   absl::IsCancelled(sent.status());  // by a server that goes
     if (!is_worth_retrying || stop_retrying_.HasBeenNotified()) {
       log_(item.lease.name() +
            ": its result was not taken: " + std::string(sent.status().message()));

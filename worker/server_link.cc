@@ -136,7 +136,9 @@ absl::StatusOr<std::string> ServerLink::Download(const std::string& sha256, int6
   for (int attempt = 0; attempt < kDownloadAttempts; ++attempt) {
     if (attempt > 0) absl::SleepFor(absl::Milliseconds(100) * (1 << attempt));
     status = DownloadRest(sha256, size_bytes, bytes);
-    if (!absl::IsUnavailable(status)) break;
+    const bool has_cut =
+        absl::IsCancelled(status) && static_cast<int64_t>(bytes.size()) <= size_bytes;
+    if (!absl::IsUnavailable(status) && !has_cut) break;
   }
   if (!status.ok()) return status;
   return bytes;

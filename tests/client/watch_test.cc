@@ -72,6 +72,7 @@ News EndedNews() {
 }
 
 const grpc::Status kBroken(grpc::StatusCode::UNAVAILABLE, "broken");
+const grpc::Status kCutOff(grpc::StatusCode::CANCELLED, "the server goes");
 
 class WatchTest : public testing::Test {
  protected:
@@ -121,7 +122,7 @@ TEST_F(WatchTest, ABrokenStreamIsResumedAfterTheLastWholeSnapshot) {
   const std::string payload = Payload(2);
   fake_.streams = {
       {{SnapshotNews(1), Chunk(Payload(1)), SnapshotNews(2), Chunk("\1\2\3")}, kBroken},
-      {{}, kBroken},
+      {{}, kCutOff},
       {{SnapshotNews(2), Chunk(payload), EndedNews()}}};
   const auto job = Watch(true);
   ASSERT_TRUE(job.ok()) << job.status();
