@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "radiosity/patch/unlit_rooms.h"
+
 namespace lambert {
 namespace {
 
@@ -10,10 +12,14 @@ constexpr int32_t kLeafPatches = 64;
 
 }  // namespace
 
-std::vector<bool> CountedPatches(const PatchSet& patches, bool count_black) {
+std::vector<bool> CountedPatches(const PatchSet& patches, bool count_black, bool count_unlit) {
   std::vector<bool> counted(patches.size(), true);
+  if (!count_unlit) {
+    counted = FindUnlitWalls(patches);
+    counted.flip();
+  }
   for (PatchIndex i = 0; i < patches.size(); ++i) {
-    counted[i] = count_black || Mean(patches.reflectance[i]) > 0;
+    counted[i] = counted[i] && (count_black || Mean(patches.reflectance[i]) > 0);
   }
   return counted;
 }

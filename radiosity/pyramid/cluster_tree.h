@@ -15,8 +15,9 @@
 
 namespace lambert {
 
-// Which patches are counted: all, or those that reflect anything (JPS00, section 4).
-std::vector<bool> CountedPatches(const PatchSet& patches, bool count_black);
+// Which patches are counted: all but, as is asked, those that reflect nothing (JPS00, section 4)
+// and the walls of rooms that no light reaches (radiosity/patch/unlit_rooms.h).
+std::vector<bool> CountedPatches(const PatchSet& patches, bool count_black, bool count_unlit);
 
 // Immutable; any number of threads may count at once.
 class ClusterTree {

@@ -81,7 +81,8 @@ DirectionTable::DirectionTable(const PatchSet& patches, const RayScene& scene,
       patches_(ReadsPatches(options) ? patches : corners_),
       kept_(tree != nullptr ? tree->place_count() : patches.size()) {
   if (counts_) {
-    counted_ = CountedPatches(patches, options.parts.with.Has(Part::kBlack));
+    const PartSet with = options.parts.with;
+    counted_ = CountedPatches(patches, with.Has(Part::kBlack), with.Has(Part::kUnlit));
     if (!ReadsPatches(options)) corners_.corners = patches.corners;
   } else if (!Probes(options)) {
     targets_ = std::make_unique<TargetTree>(patches, hit_worth_);

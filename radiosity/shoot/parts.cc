@@ -6,8 +6,9 @@ namespace lambert {
 namespace {
 
 // By the value of the enumeration.
-constexpr const char* kNames[] = {"color", "pyramids",  "dim-densities", "black",      "clusters",
-                                  "alpha", "hierarchy", "ambient",       "visibility", "std-error"};
+constexpr const char* kNames[] = {"color",      "pyramids",  "dim-densities", "black",
+                                  "clusters",   "alpha",     "hierarchy",     "ambient",
+                                  "visibility", "std-error", "unlit"};
 constexpr char kNone[] = "none";
 
 }  // namespace

@@ -19,6 +19,7 @@ enum class Part : uint8_t {
   kAmbient,       // flux is shot before it has arrived (radiosity/solve/ambient.h)
   kVisibility,    // exact: what stands between two patches
   kStdError,      // replicates: left out, the budget is one pass and the error is not known
+  kUnlit,         // walls of rooms that no light reaches count in densities
 };
 
 // "color", "pyramids", ...

@@ -19,7 +19,7 @@ namespace lambert {
 namespace {
 
 // Changes whenever the same unit would give other bytes.
-constexpr char kCodeVersion[] = "shoot-6";
+constexpr char kCodeVersion[] = "shoot-7";
 
 class EmbreeShooter : public Shooter {
  public:

@@ -22,7 +22,8 @@ class Shooter {
  public:
   // Fails with FAILED_PRECONDITION where the processor lacks AVX2, RESOURCE_EXHAUSTED where there
   // is too little memory, FIELD_INVALID where the method takes fewer patches. Holds on to `patches`
-  // only where the method reads them while it shoots, and never reads their exitance. Requires:
+  // only where the method reads them while it shoots; of their exitance it reads whether a room is
+  // lit, for the densities alone. Requires:
   // options.method is not kAuto.
   static absl::StatusOr<std::shared_ptr<const Shooter>> Create(
       std::shared_ptr<const PatchSet> patches, const ShootOptions& options);

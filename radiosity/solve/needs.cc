@@ -5,6 +5,7 @@
 
 #include "radiosity/patch/convex.h"
 #include "radiosity/patch/surface_tree.h"
+#include "radiosity/patch/unlit_rooms.h"
 #include "radiosity/shoot/directions.h"
 #include "radiosity/shoot/light_groups.h"
 
@@ -80,6 +81,16 @@ Need BlackNeed(const PatchSet& patches, bool counts) {
   if (!counts)
     need.only_way = "what reflects nothing has nothing to shoot, and no patch is counted";
   return need;
+}
+
+Need UnlitNeed(const PatchSet& patches, int64_t unlit) {
+  return {
+      Part::kUnlit, "unlit rooms", false,
+      std::to_string(unlit) +
+          " patches are walls of closed rooms that no light reaches: nothing is shot there, and "
+          "they do not count in densities",
+      Text(100.0 * static_cast<double>(unlit) / patches.size(), "%.0f") +
+          " % of the patches are never aimed at"};
 }
 
 Need ClusterNeed(const PatchSet& patches) {
@@ -172,6 +183,11 @@ std::vector<Need> FindNeeds(const PatchSet& patches, const SolveOptions& options
   needs.push_back(VisibilityNeed(patches, shoot.method));
   needs.push_back(StdErrorNeed(options));
   if (CountBlack(patches) > 0) needs.push_back(BlackNeed(patches, counts));
+  if (counts) {
+    const std::vector<bool> unlit = FindUnlitWalls(patches);
+    const auto count = std::count(unlit.begin(), unlit.end(), true);
+    if (count > 0) needs.push_back(UnlitNeed(patches, count));
+  }
   return needs;
 }
 

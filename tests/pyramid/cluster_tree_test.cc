@@ -31,7 +31,7 @@ std::vector<int32_t> CountByVertices(const PatchSet& patches, bool count_black,
 void ExpectEqualCounts(PatchSet patches, const Hemisphere& hemisphere) {
   for (PatchIndex i = 0; i < patches.size(); i += 3) patches.reflectance[i] = {};
   for (const bool count_black : {false, true}) {
-    const ClusterTree tree(patches.corners, CountedPatches(patches, count_black));
+    const ClusterTree tree(patches.corners, CountedPatches(patches, count_black, true));
     const int step = std::max(1, patches.size() / 40);
     for (PatchIndex i = 0; i < patches.size(); i += step) {
       const LocalFrame frame = PatchFrame(patches, i);
@@ -61,7 +61,7 @@ TEST(ClusterTree, CountsAClusterWithoutOpeningItWhereItFits) {
                     .Quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {{0.5, 0.5, 0.5}, {1, 1, 1}}, 1)
                     .Quad({2, 2, 2}, {0, 0.1, 0}, {0.1, 0, 0}, {{0.5, 0.5, 0.5}, {}}, 8)
                     .Make());
-  const ClusterTree tree(patches.corners, CountedPatches(patches, true));
+  const ClusterTree tree(patches.corners, CountedPatches(patches, true, true));
   const LocalFrame frame{-patches.origin, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const std::vector<int32_t> counts = tree.CountPatches(frame, Hemisphere(4, 4, 0));
   EXPECT_EQ(counts[0], 128 + 2);  // and the patches in the plane, which the horizon holds
@@ -70,8 +70,8 @@ TEST(ClusterTree, CountsAClusterWithoutOpeningItWhereItFits) {
 
 TEST(ClusterTree, WithoutReflectingPatchesCountsNothing) {
   const PatchSet patches = PatchesOf(MakeBox(1, {0, 0, 0}, std::vector<Rgb>(6, {1, 1, 1})));
-  const ClusterTree none(patches.corners, CountedPatches(patches, /*count_black=*/false));
-  const ClusterTree all(patches.corners, CountedPatches(patches, /*count_black=*/true));
+  const ClusterTree none(patches.corners, CountedPatches(patches, /*count_black=*/false, true));
+  const ClusterTree all(patches.corners, CountedPatches(patches, /*count_black=*/true, true));
   const Hemisphere hemisphere(4, 4, 1);
   const LocalFrame frame = PatchFrame(patches, 0);
   EXPECT_EQ(none.CountPatches(frame, hemisphere), std::vector<int32_t>(hemisphere.size(), 0));

@@ -45,7 +45,7 @@ std::vector<double> Densities(const CellSpans& spans) {
 std::vector<double> CountedDirectly(const PatchSet& patches, const PyramidOptions& options,
                                     const LocalFrame& frame) {
   const CellSampler sampler(options);
-  const ClusterTree tree(patches.corners, CountedPatches(patches, /*count_black=*/false));
+  const ClusterTree tree(patches.corners, CountedPatches(patches, /*count_black=*/false, true));
   const std::vector<int32_t> counts = tree.CountPatches(frame, sampler.cells());
   return Densities(CellSpans(CellDensities(sampler.fractions(), {counts.begin(), counts.end()},
                                            options.alpha1, options.alpha2)));

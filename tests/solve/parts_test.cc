@@ -11,13 +11,13 @@ namespace {
 
 // A gray room with a lamp, a black box and a fine box: 344 patches.
 SharedPatches GrayRoom() {
-  const Paint gray{{0.6, 0.6, 0.6}, {}}, black{{}, {}};
+  const Paint gray{{0.6, 0.6, 0.6}, {}}, black{{}, {}}, two_sided{{0.6, 0.6, 0.6}, {}, true};
   const Paint lamp{{0.5, 0.5, 0.5}, {7, 7, 7}};
   return Share(SceneMaker()
                    .Box({}, {3, 3, 3}, true, {gray}, 2)
                    .Quad({1, 2.9, 1}, {1, 0, 0}, {0, 0, 1}, lamp)
                    .Box({0.5, 0.1, 0.5}, {1, 1, 1}, false, {black}, 2)
-                   .Box({1.5, 0.1, 1.5}, {2, 1, 2}, false, {gray}, 5)
+                   .Box({1.5, 0.1, 1.5}, {2, 1, 2}, false, {two_sided}, 5)
                    .Light({0.2, 0.2, 2.8}, {0.3, 0.3, 0.3})
                    .Make());
 }
@@ -184,6 +184,7 @@ INSTANTIATE_TEST_SUITE_P(Parts, RaysElsewhere,
                                          PartCase{Part::kPyramids, Method::kPhsHier},
                                          PartCase{Part::kDimDensities, Method::kPhs},
                                          PartCase{Part::kBlack, Method::kPhs},
+                                         PartCase{Part::kUnlit, Method::kPhs},
                                          PartCase{Part::kAlpha, Method::kPhsAlpha},
                                          PartCase{Part::kHierarchy, Method::kPhsHier},
                                          PartCase{Part::kStdError, Method::kPmcr},

@@ -96,6 +96,23 @@ TEST(MakePlan, NamesBlackPatchesWithTheirNumberAndSaving) {
   EXPECT_NE(item->saving.find("25 %"), std::string::npos) << item->saving;
 }
 
+TEST(MakePlan, NamesUnlitRoomsWhereThereAreSome) {
+  const Paint lamp{{0.5, 0.5, 0.5}, {1, 1, 1}}, gray{{0.5, 0.5, 0.5}, {}};
+  const PatchSet patches = PatchesOf(
+      SceneMaker().Box({}, {1, 1, 1}, true, {lamp}).Box({1, 0, 0}, {2, 1, 1}, true, {gray}).Make());
+  EXPECT_EQ(Find(MakePlan(PatchesOf(MakeFurnace(0.5)), {}), "unlit"), nullptr);
+  SolveOptions options;
+  options.shoot.method = Method::kPmcr;
+  EXPECT_EQ(Find(MakePlan(patches, options), "unlit"), nullptr) << "it aims at nothing";
+  options.shoot.method = Method::kPhs;
+  const Plan plan = MakePlan(patches, options);
+  const PlanItem* item = Find(plan, "unlit");
+  ASSERT_NE(item, nullptr);
+  EXPECT_TRUE(item->left_out);
+  EXPECT_NE(item->reason.find("12 "), std::string::npos) << item->reason;
+  EXPECT_NE(item->saving.find("50 %"), std::string::npos) << item->saving;
+}
+
 TEST(MakePlan, WorkersOfPmcrTakeUnder400BytesAPatchAndThoseOfPyramidsMore) {
   const PatchSet patches = PatchesOf(MakeCornell(20));
   SolveOptions options;
