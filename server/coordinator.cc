@@ -3,11 +3,13 @@
 #include <utility>
 #include <vector>
 
+#include "absl/base/call_once.h"
 #include "absl/time/clock.h"
 #include "radiosity/core/error.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/shoot/shooter.h"
 #include "radiosity/solve/plan.h"
+#include "server/jobs/journal.h"
 #include "server/jobs/spec.h"
 
 namespace lambert::server {
@@ -18,38 +20,38 @@ constexpr absl::Duration kTick = absl::Milliseconds(50);
 // Watchers take 30 s of silence for a broken connection.
 constexpr auto kRepeatProgress = std::chrono::seconds(10);
 constexpr auto kDropIdle = std::chrono::minutes(1);
+constexpr auto kCheckOwner = std::chrono::seconds(1);
+constexpr int kEpochShift = 40;  // a run of a server uses fewer numbers than 2^40
 
-// Grows from one run of a server to the next, and leaves room for each run's own numbers.
-int64_t NewEpoch() { return absl::ToUnixMicros(absl::Now()) * 1000; }
+// Of steps and sessions: grows from one run of a server to the next.
+int64_t FirstNumber(const RecordStore& records) {
+  if (records.keeps()) return records.epoch() << kEpochShift;
+  return absl::ToUnixMicros(absl::Now()) * 1000;
+}
 
 }  // namespace
 
-Coordinator::Coordinator(const CoordinatorOptions& options, std::unique_ptr<BlobStore> blobs,
-                         std::unique_ptr<RecordStore> records)
+Coordinator::Coordinator(const CoordinatorOptions& options, Stores stores)
     : options_(options),
       unit_version_(options.unit_version.empty() ? UnitVersion() : options.unit_version),
-      blobs_(std::move(blobs)),
-      records_(std::move(records)),
+      blobs_(std::move(stores.blobs)),
+      records_(std::move(stores.records)),
       refs_(blobs_.get(), options.uploads.idle, options.clock),
       uploads_(blobs_.get(), options.uploads, options.clock),
       scenes_(blobs_.get(), &refs_, records_.get(), options.scene),
       jobs_(&refs_, records_.get(), options.max_waiting_jobs),
-      work_(options.work, unit_version_, NewEpoch(), options.clock),
-      runner_({blobs_.get(), &refs_, &scenes_, &jobs_, &work_, options.max_patches, options.clock,
-               options.log}),
+      work_(options.work, unit_version_, FirstNumber(*records_), options.clock),
+      runner_({blobs_.get(), &refs_, records_.get(), &scenes_, &jobs_, &work_, options.max_patches,
+               options.journal, options.clock, options.log}),
       pool_(kPoolThreads) {}
 
 absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Start(const CoordinatorOptions& options) {
-  std::unique_ptr<BlobStore> blobs = MakeMemoryBlobStore(options.max_store_bytes);
-  std::unique_ptr<RecordStore> records = MakeNullRecordStore();
-  if (!options.data_folder.empty()) {
-    absl::StatusOr<std::unique_ptr<BlobStore>> opened = MakeDirectoryBlobStore(options.data_folder);
-    if (!opened.ok()) return opened.status();
-    blobs = *std::move(opened);
-    records = MakeDirectoryRecordStore(options.data_folder);
-  }
-  std::unique_ptr<Coordinator> coordinator(
-      new Coordinator(options, std::move(blobs), std::move(records)));
+  return Start(options, {MakeMemoryBlobStore(options.max_store_bytes), MakeNullRecordStore()});
+}
+
+absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Start(const CoordinatorOptions& options,
+                                                                Stores stores) {
+  std::unique_ptr<Coordinator> coordinator(new Coordinator(options, std::move(stores)));
   if (absl::Status restored = coordinator->Restore(); !restored.ok()) return restored;
   coordinator->housekeeper_ = std::thread([self = coordinator.get()] { self->KeepHouse(); });
   return coordinator;
@@ -59,17 +61,26 @@ absl::Status Coordinator::Restore() {
   if (absl::Status restored = scenes_.Restore(); !restored.ok()) return restored;
   absl::StatusOr<std::vector<std::shared_ptr<Job>>> unfinished = jobs_.Restore();
   if (!unfinished.ok()) return unfinished.status();
+  AdoptOrphans();
   scheduler_ = std::make_unique<Scheduler>(&runner_, options_.max_running_jobs);
   for (std::shared_ptr<Job>& job : *unfinished) {
     if (job->Get().unit_version() != unit_version_) {
       // Passes of two versions must not be mixed: begin again.
-      jobs_.DeleteCheckpoint(*job);
+      Journal journal(job->id(), blobs_.get(), &refs_, records_.get());
+      if (absl::Status loaded = journal.Load(); !loaded.ok()) return loaded;
       job->Update([this](v1::SolveJob& record) { record.set_unit_version(unit_version_); });
+      if (absl::Status saved = jobs_.Save(*job, {journal.Clear()}); !saved.ok()) return saved;
+      journal.Settle();
     }
     options_.log(job->name() + " is gone on with");
     scheduler_->Add(std::move(job));
   }
   return absl::OkStatus();
+}
+
+void Coordinator::AdoptOrphans() {
+  for (const StoredBlob& blob : blobs_->List()) refs_.NoteUpload(blob.sha256, blob.age);
+  refs_.DropIdle();
 }
 
 Coordinator::~Coordinator() {
@@ -79,16 +90,20 @@ Coordinator::~Coordinator() {
 }
 
 void Coordinator::Shutdown() {
-  if (!stopping_.HasBeenNotified()) stopping_.Notify();
+  absl::call_once(stopped_, [this] { stopping_.Notify(); });
   work_.Shutdown();
   for (const std::shared_ptr<Job>& job : jobs_.All()) job->RepeatProgress();  // wakes watchers
 }
 
 void Coordinator::KeepHouse() {
-  TimePoint repeated = options_.clock(), dropped = repeated;
+  TimePoint repeated = options_.clock(), dropped = repeated, checked = repeated;
   while (!stopping_.WaitForNotificationWithTimeout(kTick)) {
     work_.Tick();
     const TimePoint now = options_.clock();
+    if (now - checked >= kCheckOwner) {
+      checked = now;
+      if (!OwnsStores()) return;
+    }
     if (now - repeated >= kRepeatProgress) {
       repeated = now;
       for (const std::shared_ptr<Job>& job : jobs_.All()) job->RepeatProgress();
@@ -99,6 +114,14 @@ void Coordinator::KeepHouse() {
       refs_.DropIdle();
     }
   }
+}
+
+bool Coordinator::OwnsStores() {
+  const absl::Status owned = records_->CheckOwner();
+  if (!IsOwnershipLost(owned)) return true;
+  Shutdown();
+  options_.on_stores_lost(owned);
+  return false;
 }
 
 absl::StatusOr<v1::PlanSceneResponse> Coordinator::PlanScene(const v1::PlanSceneRequest& request) {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
 
+#include "absl/base/call_once.h"
 #include "absl/status/statusor.h"
 #include "absl/synchronization/notification.h"
 #include "lambert/v1/solve_job_service.pb.h"
@@ -25,8 +27,7 @@
 namespace lambert::server {
 
 struct CoordinatorOptions {
-  std::string data_folder;                     // "": everything in memory, gone with the process
-  int64_t max_store_bytes = int64_t{8} << 30;  // of blobs in memory; unused with a data folder
+  int64_t max_store_bytes = int64_t{8} << 30;  // of blobs in memory; unused with other stores
   UploadLimits uploads;
   SceneLimits scene;
   int64_t max_patches = 20'000'000;  // of one job
@@ -35,14 +36,27 @@ struct CoordinatorOptions {
   WorkOptions work;
   std::string unit_version;  // "": that of this program
   Clock clock = SteadyNow;
+  JournalMode journal = JournalMode::kAuto;
   Log log = [](const std::string&) {};
+  // Told once, from any thread, that the stores belong to somebody else now (FENCED), or cannot be
+  // reached (DATABASE_LOST): the coordinator has stopped its jobs, and its process should end.
+  std::function<void(const absl::Status&)> on_stores_lost = [](const absl::Status&) {};
+};
+
+// Where a coordinator keeps what it has.
+struct Stores {
+  std::unique_ptr<BlobStore> blobs;
+  std::unique_ptr<RecordStore> records;
 };
 
 // Thread safe. The methods that are slow say so.
 class Coordinator {
  public:
-  // With a data folder: finds scenes and jobs of an earlier run and goes on with them.
+  // Keeps everything in memory, gone with the process.
   static absl::StatusOr<std::unique_ptr<Coordinator>> Start(const CoordinatorOptions& options);
+  // Finds scenes and jobs of an earlier run in `stores` and goes on with them.
+  static absl::StatusOr<std::unique_ptr<Coordinator>> Start(const CoordinatorOptions& options,
+                                                            Stores stores);
   // Stops jobs where they are; waits for the step of those that are building patches.
   ~Coordinator();
 
@@ -52,8 +66,7 @@ class Coordinator {
   absl::StatusOr<v1::SolveJob> CancelJob(const std::string& name);
   // SCENE_IN_USE while a job that has not ended solves it.
   absl::Status DeleteScene(const std::string& name);
-  // Ends held calls, steps and watchers; jobs stay as they are. What comes later is refused. One
-  // thread.
+  // Ends held calls, steps and watchers; jobs stay as they are. What comes later is refused.
   void Shutdown();
   bool is_shutting_down() const { return stopping_.HasBeenNotified(); }
 
@@ -66,9 +79,13 @@ class Coordinator {
   TaskPool& pool() { return pool_; }
 
  private:
-  Coordinator(const CoordinatorOptions& options, std::unique_ptr<BlobStore> blobs,
-              std::unique_ptr<RecordStore> records);
+  Coordinator(const CoordinatorOptions& options, Stores stores);
   absl::Status Restore();
+  // Treats blobs that nobody needs as uploads of their age: what a crash left unnamed goes with
+  // them.
+  void AdoptOrphans();
+  // Stops everything where the stores are no longer this coordinator's. Returns whether they are.
+  bool OwnsStores();
   void KeepHouse();
 
   const CoordinatorOptions options_;
@@ -83,6 +100,7 @@ class Coordinator {
   JobRunner runner_;
   std::unique_ptr<Scheduler> scheduler_;
   TaskPool pool_;
+  absl::once_flag stopped_;
   absl::Notification stopping_;
   std::thread housekeeper_;
 };

@@ -2,20 +2,40 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <string>
 
 #include "server/coordinator.h"
+#include "server/database/open_stores.h"
 #include "server/rpc/rpc_server.h"
 
 namespace lambert::server {
 namespace {
 
-int Run(const CoordinatorOptions& options, const std::string& listen, const sigset_t& signals) {
-  absl::StatusOr<std::unique_ptr<Coordinator>> coordinator = Coordinator::Start(options);
+absl::StatusOr<std::unique_ptr<Coordinator>> StartCoordinator(const CoordinatorOptions& options,
+                                                              const std::string& data_folder) {
+  if (data_folder.empty()) return Coordinator::Start(options);
+  absl::StatusOr<Stores> stores = OpenStores(data_folder);
+  if (!stores.ok()) return stores.status();
+  return Coordinator::Start(options, *std::move(stores));
+}
+
+int Run(CoordinatorOptions options, const std::string& listen, const std::string& data_folder,
+        const sigset_t& signals) {
+  std::atomic<bool> lost{false};
+  options.on_stores_lost = [&](const absl::Status& status) {
+    std::fprintf(stderr, "error: %s\n", std::string(status.message()).c_str());
+    lost = true;
+    kill(getpid(), SIGTERM);
+  };
+  absl::StatusOr<std::unique_ptr<Coordinator>> coordinator = StartCoordinator(options, data_folder);
   if (!coordinator.ok()) {
     std::fprintf(stderr, "error: %s\n", std::string(coordinator.status().message()).c_str());
     return 1;
@@ -29,7 +49,7 @@ int Run(const CoordinatorOptions& options, const std::string& listen, const sigs
   int signal = 0;
   sigwait(&signals, &signal);
   options.log("stopping");
-  return 0;
+  return lost ? 1 : 0;
 }
 
 }  // namespace
@@ -38,13 +58,23 @@ int Run(const CoordinatorOptions& options, const std::string& listen, const sigs
 int main(int argc, char** argv) {
   CLI::App app("lambert-server: takes scenes from clients and has workers solve them");
   std::string listen = "127.0.0.1:7400";
+  std::string data_folder;
   lambert::server::CoordinatorOptions options;
   app.add_option("--listen", listen, "HOST:PORT; port 0 for any")->capture_default_str();
-  app.add_option("--data", options.data_folder,
+  app.add_option("--data", data_folder,
                  "folder for scenes, jobs and checkpoints; without it all is kept in memory");
   app.add_option("--jobs", options.max_running_jobs, "jobs that are solved at once")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
+  using lambert::server::JournalMode;
+  app.add_option(
+         "--journal", options.journal,
+         "auto|every|off: steps that are kept, so that a server that is started again goes on "
+         "after them; auto: those that took 20 times longer than keeping them")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, JournalMode>{{"auto", JournalMode::kAuto},
+                                                                     {"every", JournalMode::kEvery},
+                                                                     {"off", JournalMode::kOff}}));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -60,5 +90,5 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a full store, not the end
   spdlog::set_default_logger(spdlog::stderr_color_mt("lambert-server"));
   options.log = [](const std::string& line) { spdlog::info("{}", line); };
-  return lambert::server::Run(options, listen, signals);
+  return lambert::server::Run(options, listen, data_folder, signals);
 }

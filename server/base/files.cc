@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "radiosity/core/error.h"
+#include "server/base/failpoint.h"
 
 namespace lambert::server {
 namespace {
@@ -56,12 +57,14 @@ absl::Status WriteFileAtomically(const std::string& path, const std::string& byt
   if (file < 0) return FileError(temporary, errno);
   absl::Status status = WriteAll(file, path, bytes);
   if (close(file) != 0 && status.ok()) status = FileError(path, errno);
+  Failpoint("blob-before-rename");
   if (status.ok() && rename(temporary.c_str(), path.c_str()) != 0) status = FileError(path, errno);
   if (!status.ok()) {
     unlink(temporary.c_str());
     return status;
   }
   SyncFolder(std::filesystem::path(path).parent_path().string());
+  Failpoint("blob-after-rename");
   return absl::OkStatus();
 }
 

@@ -15,26 +15,23 @@ void BlobRefs::Add(const std::string& sha256) {
 }
 
 void BlobRefs::Release(const std::string& sha256) {
-  {
-    absl::MutexLock lock(&mutex_);
-    auto count = counts_.find(sha256);
-    if (count == counts_.end() || --count->second > 0) return;
-    counts_.erase(count);
-  }
+  // Deleted under the lock: who adds the blob next finds it gone and stores it again.
+  absl::MutexLock lock(&mutex_);
+  auto count = counts_.find(sha256);
+  if (count == counts_.end() || --count->second > 0) return;
+  counts_.erase(count);
   store_->Delete(sha256);
 }
 
-void BlobRefs::NoteUpload(const std::string& sha256) {
+void BlobRefs::NoteUpload(const std::string& sha256, Duration age) {
   absl::MutexLock lock(&mutex_);
-  if (counts_.count(sha256) == 0) uploads_[sha256] = clock_();
+  if (counts_.count(sha256) == 0) uploads_[sha256] = clock_() - age;
 }
 
 void BlobRefs::DropIfUnused(const std::string& sha256) {
-  {
-    absl::MutexLock lock(&mutex_);
-    if (counts_.count(sha256) > 0) return;
-    uploads_.erase(sha256);
-  }
+  absl::MutexLock lock(&mutex_);
+  if (counts_.count(sha256) > 0) return;
+  uploads_.erase(sha256);
   store_->Delete(sha256);
 }
 

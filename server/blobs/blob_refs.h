@@ -19,8 +19,9 @@ class BlobRefs {
   void Add(const std::string& sha256);
   // Deletes the blob with the last reference to it.
   void Release(const std::string& sha256);
-  // Tells of a blob that was uploaded.
-  void NoteUpload(const std::string& sha256);
+  // Tells of a blob that was uploaded so long ago.
+  void NoteUpload(const std::string& sha256, Duration age = {});
+  // Deletes blobs that were uploaded a while ago and that nobody needs.
   void DropIdle();
 
  private:

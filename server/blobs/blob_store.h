@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
+#include "server/base/clock.h"
 
 namespace lambert::server {
 
@@ -26,6 +28,11 @@ class PartialBlob {
   virtual absl::Status Append(absl::string_view data) = 0;
 };
 
+struct StoredBlob {
+  std::string sha256;
+  Duration age;  // since it was stored
+};
+
 // Thread safe. Requires: every `sha256` passed IsSha256Hex.
 class BlobStore {
  public:
@@ -36,6 +43,8 @@ class BlobStore {
   // Stores bytes that the server made. Requires: sha256 is Sha256Hex(bytes). STORE_FULL.
   virtual absl::Status Put(const std::string& sha256, std::string bytes) = 0;
   virtual void Delete(const std::string& sha256) = 0;
+  // All stored blobs: what a restart finds.
+  virtual std::vector<StoredBlob> List() const = 0;
 
   // What has arrived of a blob so far, to go on with. Requires: at most one at a time for a digest.
   virtual absl::StatusOr<std::unique_ptr<PartialBlob>> OpenPartial(const std::string& sha256) = 0;

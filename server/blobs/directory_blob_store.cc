@@ -4,11 +4,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <filesystem>
 #include <set>
 
 #include "absl/synchronization/mutex.h"
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
+#include "server/base/failpoint.h"
 #include "server/base/files.h"
 #include "server/blobs/blob_store.h"
 
@@ -109,6 +111,18 @@ class DirectoryBlobStore : public BlobStore {
     verified_.erase(sha256);
   }
 
+  std::vector<StoredBlob> List() const override {
+    std::vector<StoredBlob> blobs;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(blobs_, error)) {
+      const std::string name = entry.path().filename().string();
+      if (!IsSha256Hex(name)) continue;
+      const auto written = entry.last_write_time(error);
+      if (!error) blobs.push_back({name, std::filesystem::file_time_type::clock::now() - written});
+    }
+    return blobs;
+  }
+
   absl::StatusOr<std::unique_ptr<PartialBlob>> OpenPartial(const std::string& sha256) override {
     const std::string path = partial_ + sha256;
     const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
@@ -132,8 +146,10 @@ class DirectoryBlobStore : public BlobStore {
       DropPartial(sha256);
       return DigestMismatch(sha256);
     }
+    Failpoint("upload-before-rename");
     if (rename(path.c_str(), (blobs_ + sha256).c_str()) != 0) return FileError(path, errno);
     SyncFolder(blobs_);
+    Failpoint("upload-after-rename");
     MarkVerified(sha256);
     return absl::OkStatus();
   }

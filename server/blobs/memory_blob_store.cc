@@ -94,6 +94,9 @@ class MemoryBlobStore : public BlobStore {
     blobs_.erase(found);
   }
 
+  // Nobody restarts what is in memory.
+  std::vector<StoredBlob> List() const override { return {}; }
+
   absl::StatusOr<std::unique_ptr<PartialBlob>> OpenPartial(const std::string&) override {
     return std::make_unique<MemoryPartialBlob>(&budget_);
   }

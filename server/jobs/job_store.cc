@@ -9,6 +9,7 @@
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
 #include "server/base/timestamp.h"
+#include "server/jobs/journal.h"
 #include "server/jobs/spec.h"
 
 namespace lambert::server {
@@ -16,7 +17,6 @@ namespace {
 
 constexpr char kJobs[] = "jobs";
 constexpr char kSnapshots[] = "snapshots";
-constexpr char kCheckpoints[] = "checkpoints";
 constexpr char kPrefix[] = "solveJobs/";
 constexpr size_t kMaxIdLength = 63;
 constexpr size_t kMaxRequestIdLength = 128;
@@ -63,13 +63,20 @@ JobStore::JobStore(BlobRefs* refs, RecordStore* records, int max_waiting)
 absl::StatusOr<std::vector<std::shared_ptr<Job>>> JobStore::Restore() {
   absl::StatusOr<std::map<std::string, std::string>> records = records_->LoadAll(kJobs);
   if (!records.ok()) return records.status();
+  absl::StatusOr<std::map<std::string, std::string>> histories = records_->LoadAll(kSnapshots);
+  if (!histories.ok()) return histories.status();
+  absl::StatusOr<std::map<std::string, std::string>> points = records_->LoadAll(kResumePoints);
+  if (!points.ok()) return points.status();
   std::vector<std::shared_ptr<Job>> unfinished;
   absl::MutexLock lock(&mutex_);
   for (const auto& [id, bytes] : *records) {
     v1::SolveJob record;
-    if (!record.ParseFromString(bytes)) continue;
+    if (!record.ParseFromString(bytes)) return DamagedRecord(kJobs, id);
     v1::ListSnapshotsResponse history;
-    history.ParseFromString(records_->Load(kSnapshots, id).value_or(""));
+    if (!history.ParseFromString((*histories)[id])) return DamagedRecord(kSnapshots, id);
+    store::v1::ResumePoint point;
+    if (!point.ParseFromString((*points)[id])) return DamagedRecord(kResumePoints, id);
+    for (const std::string& blob : BlobsOf(point)) refs_->Add(blob);
     if (record.has_patch_set_digest()) refs_->Add(record.patch_set_digest().sha256());
     if (record.has_latest_snapshot()) {
       refs_->Add(record.latest_snapshot().payload_digest().sha256());
@@ -159,10 +166,15 @@ absl::Status JobStore::Delete(const std::string& name) {
                        {"JOB_NOT_ENDED", name, "the job has not ended", "cancel it first"});
     }
     job = found->second;
-    jobs_.erase(found);
+  }
+  absl::Status gone =
+      records_->Commit({{kJobs, job->id(), std::nullopt}, {kSnapshots, job->id(), std::nullopt}});
+  if (!gone.ok()) return gone;
+  {
+    absl::MutexLock lock(&mutex_);
+    if (jobs_.erase(name) == 0) return JobNotFound(name);  // somebody else was faster
   }
   const v1::SolveJob record = job->Get();
-  for (const char* kind : {kJobs, kSnapshots, kCheckpoints}) records_->Delete(kind, job->id());
   if (record.has_patch_set_digest()) refs_->Release(record.patch_set_digest().sha256());
   if (record.has_latest_snapshot()) {
     refs_->Release(record.latest_snapshot().payload_digest().sha256());
@@ -177,23 +189,34 @@ bool JobStore::UsesScene(const std::string& scene) const {
   return false;
 }
 
-absl::Status JobStore::Save(const Job& job) {
+absl::Status JobStore::Save(const Job& job, std::vector<RecordChange> changes) {
+  return Save(job, job.Get(), job.snapshots(), std::move(changes));
+}
+
+absl::Status JobStore::Publish(Job& job, const v1::Snapshot& snapshot,
+                               std::vector<RecordChange> changes) {
+  v1::SolveJob record = job.Get();
+  const v1::Snapshot old = record.latest_snapshot();
+  *record.mutable_latest_snapshot() = snapshot;
+  *record.mutable_progress() = snapshot.progress();
+  std::vector<v1::Snapshot> snapshots = job.snapshots();
+  snapshots.push_back(snapshot);
+  absl::Status saved = Save(job, record, snapshots, std::move(changes));
+  if (!saved.ok()) return saved;
+  job.AddSnapshot(snapshot);
+  if (!old.name().empty()) refs_->Release(old.payload_digest().sha256());
+  return absl::OkStatus();
+}
+
+absl::Status JobStore::Save(const Job& job, const v1::SolveJob& record,
+                            const std::vector<v1::Snapshot>& snapshots,
+                            std::vector<RecordChange> changes) {
   if (!records_->keeps()) return absl::OkStatus();
   v1::ListSnapshotsResponse history;
-  for (const v1::Snapshot& snapshot : job.snapshots()) *history.add_snapshots() = snapshot;
-  absl::Status status = records_->Save(kSnapshots, job.id(), history.SerializeAsString());
-  if (!status.ok()) return status;
-  return records_->Save(kJobs, job.id(), job.Get().SerializeAsString());
+  for (const v1::Snapshot& snapshot : snapshots) *history.add_snapshots() = snapshot;
+  changes.push_back({kJobs, job.id(), record.SerializeAsString()});
+  changes.push_back({kSnapshots, job.id(), history.SerializeAsString()});
+  return records_->Commit(changes);
 }
-
-absl::Status JobStore::SaveCheckpoint(const Job& job, const std::string& checkpoint) {
-  return records_->Save(kCheckpoints, job.id(), checkpoint);
-}
-
-std::string JobStore::LoadCheckpoint(const Job& job) {
-  return records_->Load(kCheckpoints, job.id()).value_or("");
-}
-
-void JobStore::DeleteCheckpoint(const Job& job) { records_->Delete(kCheckpoints, job.id()); }
 
 }  // namespace lambert::server

@@ -22,8 +22,8 @@ class JobStore {
   // `max_waiting`: jobs that have not ended, > 0; more: TOO_MANY_JOBS.
   JobStore(BlobRefs* refs, RecordStore* records, int max_waiting);
 
-  // Finds the jobs of an earlier run again; returns those that have not ended, queued. Call it
-  // before anything else.
+  // Finds the jobs of an earlier run again; returns those that have not ended, queued, and refers
+  // to all blobs that they need. RECORD_CORRUPT. Call it before anything else.
   absl::StatusOr<std::vector<std::shared_ptr<Job>>> Restore();
 
   struct Created {
@@ -40,21 +40,23 @@ class JobStore {
   absl::StatusOr<Page<std::shared_ptr<Job>>> List(int page_size,
                                                   const std::string& page_token) const;
   std::vector<std::shared_ptr<Job>> All() const;
-  // JOB_NOT_FOUND, JOB_NOT_ENDED. Releases the job's blobs.
+  // Releases the job's blobs. JOB_NOT_FOUND, JOB_NOT_ENDED, and what RecordStore::Commit fails
+  // with: then the job stays.
   absl::Status Delete(const std::string& name);
   // True while a job that has not ended solves the scene.
   bool UsesScene(const std::string& scene) const;
 
-  // Writes a job's record and the descriptions of its snapshots. STORE_FULL.
-  absl::Status Save(const Job& job);
-  // The solver's state after a pass. Does nothing where records are not kept.
-  absl::Status SaveCheckpoint(const Job& job, const std::string& checkpoint);
-  bool keeps_checkpoints() const { return records_->keeps(); }
-  // Empty where there is none.
-  std::string LoadCheckpoint(const Job& job);
-  void DeleteCheckpoint(const Job& job);
+  // Writes a job's record and the descriptions of its snapshots, and makes `changes`, in one
+  // transaction. STORE_FULL.
+  absl::Status Save(const Job& job, std::vector<RecordChange> changes = {});
+  // The same with one more snapshot, which watchers are told of once it is stored. Releases the
+  // payload of the one before. Requires: the payload is stored and referenced.
+  absl::Status Publish(Job& job, const v1::Snapshot& snapshot, std::vector<RecordChange> changes);
 
  private:
+  absl::Status Save(const Job& job, const v1::SolveJob& record,
+                    const std::vector<v1::Snapshot>& snapshots, std::vector<RecordChange> changes);
+
   BlobRefs* const refs_;
   RecordStore* const records_;
   const int max_waiting_;

@@ -18,7 +18,9 @@ namespace {
 // A snapshot is left out while those before took more than a twentieth of the time.
 constexpr double kPublishCostFactor = 20;
 
-bool IsShutdown(const absl::Status& status) {
+// The job stays as it is: this server, or the next, goes on with it.
+bool IsInterrupted(const absl::Status& status) {
+  if (IsOwnershipLost(status)) return true;
   auto detail = GetErrorDetail(status);
   return detail.has_value() && detail->reason == "SHUTTING_DOWN";
 }
@@ -27,18 +29,20 @@ bool IsShutdown(const absl::Status& status) {
 
 void JobRunner::Run(Job& job) {
   if (!job.Start()) return;
+  Journal journal(job.id(), parts_.blobs, parts_.refs, parts_.records);
   absl::Status status;
   try {
-    status = Solve(job);
+    status = Solve(job, journal);
   } catch (const std::exception& error) {  // memory exhausted, at the worst
     status = MakeError(absl::StatusCode::kResourceExhausted,
                        {"OUT_OF_MEMORY", job.name(), error.what(), "give the server more memory"});
   }
-  if (!IsShutdown(status)) Finish(job, status);
+  if (!IsInterrupted(status)) Finish(job, journal, status);
   parts_.work->ForgetJob(job.id());
 }
 
-absl::Status JobRunner::Solve(Job& job) {
+absl::Status JobRunner::Solve(Job& job, Journal& journal) {
+  if (absl::Status loaded = journal.Load(); !loaded.ok()) return loaded;
   absl::StatusOr<JobOptions> options = DecodeSpec(job.Get().spec(), parts_.max_patches);
   if (!options.ok()) return options.status();
   absl::StatusOr<std::shared_ptr<const PatchSet>> patches = PreparePatches(job, options->patch);
@@ -58,14 +62,18 @@ absl::Status JobRunner::Solve(Job& job) {
 
   Solver solver(*patches, plan.options,
                 [this] { return ToSeconds(parts_.clock().time_since_epoch()); });
-  if (const std::string checkpoint = parts_.jobs->LoadCheckpoint(job); !checkpoint.empty()) {
-    if (absl::Status restored = solver.Restore(checkpoint); !restored.ok()) return restored;
+  absl::StatusOr<std::string> checkpoint = journal.Checkpoint();
+  if (!checkpoint.ok()) return checkpoint.status();
+  if (!checkpoint->empty()) {
+    if (absl::Status restored = solver.Restore(*checkpoint); !restored.ok()) return restored;
   }
   const v1::Digest digest = job.Get().patch_set_digest();
-  TableExecutor executor(parts_.work, {job.id(), digest.sha256(), digest.size_bytes(),
-                                       (*patches)->size(), EncodeShootOptions(plan.options.shoot),
-                                       plan.options.shoot.method == Method::kPhsAlpha});
-  return RunPasses(job, solver, executor);
+  TableExecutor table(parts_.work, {job.id(), digest.sha256(), digest.size_bytes(),
+                                    (*patches)->size(), EncodeShootOptions(plan.options.shoot),
+                                    plan.options.shoot.method == Method::kPhsAlpha});
+  JournalExecutor executor(&table, &journal, parts_.journal, (*patches)->size(), parts_.clock,
+                           [&](const std::string& line) { parts_.log(job.name() + " " + line); });
+  return RunPasses(job, journal, solver, executor);
 }
 
 absl::StatusOr<std::shared_ptr<const PatchSet>> JobRunner::PreparePatches(
@@ -97,7 +105,8 @@ absl::StatusOr<std::shared_ptr<const PatchSet>> JobRunner::PreparePatches(
   return std::make_shared<const PatchSet>(*std::move(patches));
 }
 
-absl::Status JobRunner::RunPasses(Job& job, Solver& solver, StepExecutor& executor) {
+absl::Status JobRunner::RunPasses(Job& job, Journal& journal, Solver& solver,
+                                  StepExecutor& executor) {
   bool is_published = false;
   double published_at_s = 0, cost_s = 0;
   absl::Status status;
@@ -109,14 +118,15 @@ absl::Status JobRunner::RunPasses(Job& job, Solver& solver, StepExecutor& execut
     if (!status.ok() || (cost_s > 0 && now_s - published_at_s < kPublishCostFactor * cost_s)) {
       continue;
     }
-    if (absl::Status published = Publish(job, solver); !published.ok()) return published;
+    if (absl::Status published = Publish(job, journal, solver); !published.ok()) return published;
     is_published = true;
     published_at_s = ToSeconds(parts_.clock().time_since_epoch());
     cost_s = published_at_s - now_s;
   }
   const bool has_news = job.snapshots().empty() || !is_published;
-  if (has_news && !IsShutdown(status) && (status.ok() || solver.MakeSnapshot().progress.rays > 0)) {
-    if (absl::Status published = Publish(job, solver); !published.ok()) return published;
+  if (has_news && !IsInterrupted(status) &&
+      (status.ok() || solver.MakeSnapshot().progress.rays > 0)) {
+    if (absl::Status published = Publish(job, journal, solver); !published.ok()) return published;
   }
   job.Update([&](v1::SolveJob& record) {
     record.set_stop_reason(EncodeStopReason(solver.stop_reason()));
@@ -125,12 +135,11 @@ absl::Status JobRunner::RunPasses(Job& job, Solver& solver, StepExecutor& execut
   return status;
 }
 
-absl::Status JobRunner::Publish(Job& job, const Solver& solver) {
+absl::Status JobRunner::Publish(Job& job, Journal& journal, const Solver& solver) {
   const lambert::Snapshot made = solver.MakeSnapshot();
   std::string payload = EncodeSolution(*made.solution);
-  const v1::Snapshot old = job.Get().latest_snapshot();
   v1::Snapshot snapshot;
-  snapshot.set_version(old.version() + 1);
+  snapshot.set_version(job.Get().latest_snapshot().version() + 1);
   snapshot.set_name(job.name() + "/snapshots/" + std::to_string(snapshot.version()));
   *snapshot.mutable_progress() = EncodeProgress(made.progress);
   const std::string sha256 = Sha256Hex(payload);
@@ -142,18 +151,19 @@ absl::Status JobRunner::Publish(Job& job, const Solver& solver) {
     parts_.refs->Release(sha256);
     return stored;
   }
-  job.AddSnapshot(snapshot);
-  // Watchers have it by now; what follows is for a restart.
-  absl::Status saved;
-  if (parts_.jobs->keeps_checkpoints()) {
-    saved = parts_.jobs->SaveCheckpoint(job, solver.EncodeCheckpoint());
-    if (saved.ok()) saved = parts_.jobs->Save(job);
+  absl::Status published;
+  if (journal.keeps()) {
+    absl::StatusOr<RecordChange> change = journal.Replace(solver.EncodeCheckpoint());
+    published = change.ok() ? parts_.jobs->Publish(job, snapshot, {*change}) : change.status();
+    if (published.ok()) journal.Settle();
+  } else {
+    published = parts_.jobs->Publish(job, snapshot, {});
   }
-  if (!old.name().empty()) parts_.refs->Release(old.payload_digest().sha256());
-  return saved;
+  if (!published.ok() && !IsOwnershipLost(published)) parts_.refs->Release(sha256);
+  return published;
 }
 
-void JobRunner::Finish(Job& job, const absl::Status& status) {
+void JobRunner::Finish(Job& job, Journal& journal, const absl::Status& status) {
   job.Update([&](v1::SolveJob& record) {
     *record.mutable_end_time() = TimestampNow();
     if (status.ok()) {
@@ -165,8 +175,8 @@ void JobRunner::Finish(Job& job, const absl::Status& status) {
       *record.mutable_error() = ToStatusProto(status);
     }
   });
-  parts_.jobs->DeleteCheckpoint(job);
-  const absl::Status saved = parts_.jobs->Save(job);
+  const absl::Status saved = parts_.jobs->Save(job, {journal.Clear()});
+  if (saved.ok()) journal.Settle();
   const v1::SolveJob record = job.Get();
   parts_.log(job.name() + " " + v1::SolveJob::State_Name(record.state()) + " after " +
              std::to_string(record.progress().ray_count()) + " rays" +

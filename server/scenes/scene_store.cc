@@ -70,7 +70,7 @@ absl::Status SceneStore::Restore() {
   absl::MutexLock lock(&mutex_);
   for (const auto& [id, bytes] : *records) {
     v1::Scene scene;
-    if (!scene.ParseFromString(bytes)) continue;
+    if (!scene.ParseFromString(bytes)) return DamagedRecord(kKind, id);
     for (const v1::SceneFile& file : scene.files()) refs_->Add(file.digest().sha256());
     scenes_[scene.name()] = scene;
   }
@@ -86,7 +86,7 @@ absl::StatusOr<v1::Scene> SceneStore::Create(const v1::CreateSceneRequest& reque
   for (const v1::SceneFile& file : scene->files()) refs_->Add(file.digest().sha256());
   absl::Status status = Examine(*scene);
   if (status.ok()) {
-    status = records_->Save(kKind, IdOf(scene->name()), scene->SerializeAsString());
+    status = records_->Commit({{kKind, IdOf(scene->name()), scene->SerializeAsString()}});
   }
   bool is_kept = false;
   if (status.ok()) {
@@ -140,16 +140,16 @@ absl::StatusOr<Page<v1::Scene>> SceneStore::List(int page_size,
 }
 
 absl::Status SceneStore::Delete(const std::string& name) {
-  v1::Scene scene;
+  absl::StatusOr<v1::Scene> scene = Get(name);
+  if (!scene.ok()) return scene.status();
+  if (absl::Status gone = records_->Commit({{kKind, IdOf(name), std::nullopt}}); !gone.ok()) {
+    return gone;
+  }
   {
     absl::MutexLock lock(&mutex_);
-    auto found = scenes_.find(name);
-    if (found == scenes_.end()) return SceneNotFound(name);
-    scene = std::move(found->second);
-    scenes_.erase(found);
+    if (scenes_.erase(name) == 0) return SceneNotFound(name);  // somebody else was faster
   }
-  records_->Delete(kKind, IdOf(name));
-  for (const v1::SceneFile& file : scene.files()) refs_->Release(file.digest().sha256());
+  for (const v1::SceneFile& file : scene->files()) refs_->Release(file.digest().sha256());
   return absl::OkStatus();
 }
 

@@ -24,11 +24,13 @@ class SceneStore {
   // Finds the scenes of an earlier run again. Call it before anything else.
   absl::Status Restore();
 
-  // FIELD_INVALID, BLOBS_MISSING, and what LoadGltf refuses; then nothing is left behind.
+  // FIELD_INVALID, BLOBS_MISSING, what LoadGltf refuses and what RecordStore::Commit fails with;
+  // then nothing is left behind.
   absl::StatusOr<v1::Scene> Create(const v1::CreateSceneRequest& request);
   // SCENE_NOT_FOUND.
   absl::StatusOr<v1::Scene> Get(const std::string& name) const;
   absl::StatusOr<Page<v1::Scene>> List(int page_size, const std::string& page_token) const;
+  // SCENE_NOT_FOUND, and what RecordStore::Commit fails with: then the scene stays.
   absl::Status Delete(const std::string& name);
   // Parses a scene. SCENE_NOT_FOUND, BLOB_CORRUPT.
   absl::StatusOr<Scene> Load(const std::string& name) const;

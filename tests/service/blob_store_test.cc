@@ -8,7 +8,6 @@
 
 #include "radiosity/core/digest.h"
 #include "server/base/files.h"
-#include "server/base/record_store.h"
 #include "server/blobs/blob_refs.h"
 #include "server/blobs/uploads.h"
 #include "tests/service/work_fakes.h"
@@ -194,17 +193,6 @@ TEST(ListFiles, RemovesWhatACrashLeftHalfWritten) {
   std::ofstream(folder.path() + "/record.7.tmp") << "half";
   EXPECT_TRUE(ListFiles(folder.path())->empty());
   EXPECT_FALSE(std::filesystem::exists(folder.path() + "/record.7.tmp"));
-}
-
-TEST(DirectoryRecordStore, FindsRecordsAgain) {
-  TemporaryFolder folder;
-  ASSERT_TRUE(MakeDirectoryRecordStore(folder.path())->Save("jobs", "a", "1").ok());
-  ASSERT_TRUE(MakeDirectoryRecordStore(folder.path())->Save("jobs", "b", "2").ok());
-  auto records = MakeDirectoryRecordStore(folder.path());
-  records->Delete("jobs", "a");
-  EXPECT_EQ(*records->LoadAll("jobs"), (std::map<std::string, std::string>{{"b", "2"}}));
-  EXPECT_TRUE(absl::IsNotFound(records->Load("jobs", "a").status()));
-  EXPECT_TRUE(records->LoadAll("scenes")->empty());
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include "radiosity/solve/plan.h"
 #include "radiosity/solve/solver.h"
 #include "tests/service/service_fixture.h"
-#include "tests/support/temporary_folder.h"
 
 namespace lambert {
 namespace {
@@ -214,34 +213,6 @@ TEST_F(JobService, ListsItsWorkers) {
   EXPECT_EQ(response.workers(0).name(), "workers/worker-0");
   EXPECT_EQ(response.workers(0).slot_count(), 3);
   EXPECT_GT(response.workers(0).finished_unit_count(), 0);
-}
-
-TEST_F(JobService, ARestartedServerGoesOnFromTheLastCheckpointToTheSameBytes) {
-  AddWorker();
-  const std::string expected = Watch(CreateJob(200'000).name()).payload;
-  TemporaryFolder folder;
-  server::CoordinatorOptions options;
-  options.data_folder = folder.path();
-  Start(options);
-  AddWorker();
-  const v1::SolveJob job = CreateJob(200'000);
-  {
-    grpc::ClientContext context;
-    v1::WatchSnapshotsRequest watch;
-    watch.set_parent(job.name());
-    auto reader = snapshots()->WatchSnapshots(&context, watch);
-    v1::WatchSnapshotsResponse news;
-    while (reader->Read(&news) && !news.has_snapshot()) {
-    }
-    context.TryCancel();
-  }
-  Start(options);
-  AddWorker();
-  const Watched watched = Watch(job.name());
-  EXPECT_EQ(watched.ended.state(), v1::SolveJob::STATE_SUCCEEDED);
-  EXPECT_EQ(watched.payload, expected);
-  Start(options);
-  EXPECT_EQ(Watch(job.name()).payload, expected);
 }
 
 }  // namespace

@@ -22,7 +22,10 @@ class ServiceFixture : public testing::Test, public ServiceCalls {
 
   void Start(const server::CoordinatorOptions& options) {
     Stop();
-    coordinator_ = *server::Coordinator::Start(options);
+    Serve(*server::Coordinator::Start(options));
+  }
+  void Serve(std::unique_ptr<server::Coordinator> coordinator) {
+    coordinator_ = std::move(coordinator);
     rpc_ = *server::RpcServer::Start(coordinator_.get(), "");
     Connect(rpc_->InProcessChannel());
   }

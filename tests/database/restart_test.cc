@@ -1,0 +1,90 @@
+// A coordinator that starts again on the stores of another.
+#include <gtest/gtest.h>
+
+#include "radiosity/core/digest.h"
+#include "server/database/open_stores.h"
+#include "server/database/sqlite_record_store.h"
+#include "tests/service/service_fixture.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lambert {
+namespace {
+
+class Restart : public ServiceFixture {
+ protected:
+  void StartOnFolder(server::CoordinatorOptions options = {}) {
+    Stop();
+    Serve(*server::Coordinator::Start(options, *server::OpenStores(folder_.path())));
+  }
+  // Blocks until watchers have the job's first snapshot.
+  void WaitForSnapshot(const std::string& job) {
+    grpc::ClientContext context;
+    v1::WatchSnapshotsRequest watch;
+    watch.set_parent(job);
+    auto reader = snapshots()->WatchSnapshots(&context, watch);
+    v1::WatchSnapshotsResponse news;
+    while (reader->Read(&news) && !news.has_snapshot()) {
+    }
+    context.TryCancel();
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Restart, GoesOnToTheSameBytes) {
+  AddWorker();
+  const std::string expected = Watch(CreateJob(200'000).name()).payload;
+  for (const auto mode : {server::JournalMode::kOff, server::JournalMode::kEvery}) {
+    server::CoordinatorOptions options;
+    options.journal = mode;
+    StartOnFolder(options);
+    AddWorker();
+    const std::string id = mode == server::JournalMode::kOff ? "off" : "every";
+    const v1::SolveJob job = CreateJob(200'000, id);
+    WaitForSnapshot(job.name());
+    StartOnFolder(options);
+    AddWorker();
+    const Watched watched = Watch(job.name());
+    EXPECT_EQ(watched.ended.state(), v1::SolveJob::STATE_SUCCEEDED);
+    EXPECT_EQ(watched.payload, expected);
+    StartOnFolder();
+    EXPECT_EQ(Watch(job.name()).payload, expected);
+  }
+}
+
+TEST_F(Restart, DropsBlobsThatNobodyNeedsOnceTheyAreOld) {
+  StartOnFolder();
+  AddWorker();
+  const v1::SolveJob ended = Watch(CreateJob().name()).ended;
+  const std::string orphan = Sha256Hex(std::string("orphan"));
+  ASSERT_TRUE(coordinator_->blobs().Put(orphan, "orphan").ok());
+  StartOnFolder();
+  EXPECT_TRUE(coordinator_->blobs().Has(orphan));  // may be an upload, of a scene to come
+  server::CoordinatorOptions options;
+  options.uploads.idle = {};
+  StartOnFolder(options);
+  EXPECT_FALSE(coordinator_->blobs().Has(orphan));
+  EXPECT_TRUE(coordinator_->blobs().Has(ended.patch_set_digest().sha256()));
+  EXPECT_TRUE(coordinator_->blobs().Has(ended.latest_snapshot().payload_digest().sha256()));
+}
+
+TEST_F(Restart, EndsWithoutHarmWhereAnotherHasTakenOver) {
+  absl::Notification lost;
+  absl::Status why;
+  server::CoordinatorOptions options;
+  options.on_stores_lost = [&](const absl::Status& status) {
+    why = status;
+    lost.Notify();
+  };
+  StartOnFolder(options);
+  const v1::SolveJob job = CreateJob(200'000);
+  auto successor = *server::OpenSqliteRecordStore(folder_.path() + "/lambert.db");
+  lost.WaitForNotification();
+  EXPECT_NE(why.message().find("another server has taken over"), std::string::npos);
+  v1::SolveJob record;
+  ASSERT_TRUE(record.ParseFromString(successor->LoadAll("jobs")->begin()->second));
+  EXPECT_EQ(record.name(), job.name());
+  EXPECT_FALSE(record.has_error());
+}
+
+}  // namespace
+}  // namespace lambert
