@@ -45,7 +45,7 @@ PatchSet SceneOf(const benchmark::State& state) {
 
 void MeasureCount(benchmark::State& state, bool use_clusters) {
   const PatchSet patches = SceneOf(state);
-  const ClusterTree clusters(patches.corners, CountedPatches(patches, /*count_black=*/false));
+  const ClusterTree clusters(patches.corners, CountedPatches(patches, /*count_black=*/false, true));
   const Hemisphere cells(4, 4, 2);
   Measure(state, patches, cells.size(), [&](const LocalFrame& frame) {
     return clusters.CountPatches(frame, cells, use_clusters);
