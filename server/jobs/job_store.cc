@@ -193,6 +193,15 @@ absl::Status JobStore::Save(const Job& job, std::vector<RecordChange> changes) {
   return Save(job, job.Get(), job.snapshots(), std::move(changes));
 }
 
+absl::Status JobStore::Update(Job& job, const std::function<void(v1::SolveJob&)>& change,
+                              std::vector<RecordChange> changes) {
+  v1::SolveJob record = job.Get();
+  change(record);
+  absl::Status saved = Save(job, record, job.snapshots(), std::move(changes));
+  if (saved.ok()) job.Update(change);
+  return saved;
+}
+
 absl::Status JobStore::Publish(Job& job, const v1::Snapshot& snapshot,
                                std::vector<RecordChange> changes) {
   v1::SolveJob record = job.Get();

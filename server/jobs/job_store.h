@@ -1,6 +1,7 @@
 // All jobs, in memory and as records.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -49,6 +50,10 @@ class JobStore {
   // Writes a job's record and the descriptions of its snapshots, and makes `changes`, in one
   // transaction. STORE_FULL.
   absl::Status Save(const Job& job, std::vector<RecordChange> changes = {});
+  // Stores the record as `change` makes it, and then changes it for those who watch; where that
+  // fails, nothing is changed.
+  absl::Status Update(Job& job, const std::function<void(v1::SolveJob&)>& change,
+                      std::vector<RecordChange> changes);
   // The same with one more snapshot, which watchers are told of once it is stored. Releases the
   // payload of the one before. Requires: the payload is stored and referenced.
   absl::Status Publish(Job& job, const v1::Snapshot& snapshot, std::vector<RecordChange> changes);

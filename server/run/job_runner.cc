@@ -164,7 +164,7 @@ absl::Status JobRunner::Publish(Job& job, Journal& journal, const Solver& solver
 }
 
 void JobRunner::Finish(Job& job, Journal& journal, const absl::Status& status) {
-  job.Update([&](v1::SolveJob& record) {
+  const auto end = [&](v1::SolveJob& record) {
     *record.mutable_end_time() = TimestampNow();
     if (status.ok()) {
       record.set_state(v1::SolveJob::STATE_SUCCEEDED);
@@ -174,9 +174,14 @@ void JobRunner::Finish(Job& job, Journal& journal, const absl::Status& status) {
       record.set_state(v1::SolveJob::STATE_FAILED);
       *record.mutable_error() = ToStatusProto(status);
     }
-  });
-  const absl::Status saved = parts_.jobs->Save(job, {journal.Clear()});
-  if (saved.ok()) journal.Settle();
+  };
+  const absl::Status saved = parts_.jobs->Update(job, end, {journal.Clear()});
+  if (IsOwnershipLost(saved)) return;
+  if (saved.ok()) {
+    journal.Settle();
+  } else {
+    job.Update(end);
+  }
   const v1::SolveJob record = job.Get();
   parts_.log(job.name() + " " + v1::SolveJob::State_Name(record.state()) + " after " +
              std::to_string(record.progress().ray_count()) + " rays" +

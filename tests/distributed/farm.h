@@ -2,6 +2,7 @@
 #pragma once
 
 #include <grpcpp/grpcpp.h>
+#include <sys/resource.h>
 
 #include <csignal>
 #include <memory>
@@ -16,10 +17,12 @@ namespace lambert {
 
 class Farm : public ServiceCalls {
  public:
-  // `max_file_bytes`: no file of the server may grow larger; 0: no limit.
-  explicit Farm(std::vector<std::string> server_arguments = {}, int64_t max_file_bytes = 0)
+  // `max_file_bytes`: no file of the server may grow larger; 0: no limit. `environment`: of the
+  // first server only.
+  explicit Farm(std::vector<std::string> server_arguments = {}, int64_t max_file_bytes = 0,
+                const ProcessOptions& environment = {})
       : server_arguments_(std::move(server_arguments)), max_file_bytes_(max_file_bytes) {
-    StartServer("127.0.0.1:0");
+    StartServer("127.0.0.1:0", environment);
   }
 
   void AddWorker(int slots = 1) {
@@ -34,8 +37,17 @@ class Farm : public ServiceCalls {
   // As a crash of the machine does; the address stays.
   void KillAndRestartServer() {
     server_->Signal(SIGKILL);
+    RestartServer();
+  }
+  // Waits for the server's end and starts another in its place.
+  void RestartServer() {
     server_->Wait();
-    StartServer(address_);
+    StartServer(address_, {});
+  }
+  // As on a disk that is full from now on: no file of the server may grow any more.
+  void FillDisk() {
+    const rlimit nothing = {0, RLIM_INFINITY};
+    prlimit(server_->id(), RLIMIT_FSIZE, &nothing, nullptr);
   }
   // Blocks until workers have finished units of the job: it is in the middle.
   void WaitUntilUnderWay(const std::string& job, int passes = 0) {
@@ -51,14 +63,14 @@ class Farm : public ServiceCalls {
   }
 
  private:
-  void StartServer(const std::string& listen) {
+  void StartServer(const std::string& listen, const ProcessOptions& environment) {
     std::vector<std::string> command = {LAMBERT_SERVER, "--listen", listen};
     command.insert(command.end(), server_arguments_.begin(), server_arguments_.end());
     if (max_file_bytes_ > 0) {
       const std::string limit = "--fsize=" + std::to_string(max_file_bytes_);
       command.insert(command.begin(), {"/usr/bin/prlimit", limit});
     }
-    server_ = std::make_unique<Process>(command);
+    server_ = std::make_unique<Process>(command, environment);
     const std::string announcement = "listening on ";
     const size_t begin = server_->WaitForError(announcement);
     const size_t end = server_->WaitForError("\n", begin);

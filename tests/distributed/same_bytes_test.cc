@@ -168,5 +168,20 @@ TEST(SameBytesInTrouble, WithTheServerKilledAndStartedAgain) {
   ExpectSameBytes(farm.Watch(job.name()));
 }
 
+TEST(SameBytesInTrouble, WithTheDiskFullInTheMiddleAndRoomAfterARestart) {
+  TemporaryFolder folder;
+  Farm farm({"--data", folder.path()});
+  for (int i = 0; i < 2; ++i) farm.AddWorker();
+  const v1::SolveJob job = farm.CreateJob(kRays, "", kSquares);
+  farm.WaitUntilUnderWay(job.name());
+  farm.FillDisk();
+  const v1::SolveJob failed = farm.Watch(job.name()).ended;
+  ASSERT_EQ(failed.state(), v1::SolveJob::STATE_FAILED);
+  EXPECT_NE(failed.error().message().find("give the server more disk"), std::string::npos);
+  // There was no room to write down that it failed, either.
+  farm.KillAndRestartServer();
+  ExpectSameBytes(farm.Watch(job.name()));
+}
+
 }  // namespace
 }  // namespace lambert

@@ -25,6 +25,7 @@ class Process {
   ~Process();
   Process(const Process&) = delete;
 
+  pid_t id() const { return id_; }
   void Signal(int signal) const;
   // Blocks until standard error holds `text` from `from` on, and returns where it ends there;
   // std::string::npos where the program closed it before.
