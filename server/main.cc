@@ -19,15 +19,19 @@
 namespace lambert::server {
 namespace {
 
+constexpr timespec kStandbyPause = {.tv_sec = 0, .tv_nsec = 200'000'000};
+
 absl::StatusOr<std::unique_ptr<Coordinator>> StartCoordinator(const CoordinatorOptions& options,
-                                                              const std::string& data_folder) {
-  if (data_folder.empty()) return Coordinator::Start(options);
-  absl::StatusOr<Stores> stores = OpenStores(data_folder);
+                                                              const StoreOptions& store_options) {
+  if (store_options.data_folder.empty() && store_options.database.empty()) {
+    return Coordinator::Start(options);
+  }
+  absl::StatusOr<Stores> stores = OpenStores(store_options);
   if (!stores.ok()) return stores.status();
   return Coordinator::Start(options, *std::move(stores));
 }
 
-int Run(CoordinatorOptions options, const std::string& listen, const std::string& data_folder,
+int Run(CoordinatorOptions options, const std::string& listen, StoreOptions stores,
         const sigset_t& signals) {
   std::atomic<bool> lost{false};
   options.on_stores_lost = [&](const absl::Status& status) {
@@ -35,7 +39,13 @@ int Run(CoordinatorOptions options, const std::string& listen, const std::string
     lost = true;
     kill(getpid(), SIGTERM);
   };
-  absl::StatusOr<std::unique_ptr<Coordinator>> coordinator = StartCoordinator(options, data_folder);
+  stores.wait = [&, told = false]() mutable {
+    if (!told) options.log("another server owns the database; standing by");
+    told = true;
+    return sigtimedwait(&signals, nullptr, &kStandbyPause) < 0;
+  };
+  absl::StatusOr<std::unique_ptr<Coordinator>> coordinator = StartCoordinator(options, stores);
+  if (absl::IsCancelled(coordinator.status())) return 0;  // stopped while it stood by
   if (!coordinator.ok()) {
     std::fprintf(stderr, "error: %s\n", std::string(coordinator.status().message()).c_str());
     return 1;
@@ -58,11 +68,15 @@ int Run(CoordinatorOptions options, const std::string& listen, const std::string
 int main(int argc, char** argv) {
   CLI::App app("lambert-server: takes scenes from clients and has workers solve them");
   std::string listen = "127.0.0.1:7400";
-  std::string data_folder;
+  lambert::server::StoreOptions stores;
   lambert::server::CoordinatorOptions options;
   app.add_option("--listen", listen, "HOST:PORT; port 0 for any")->capture_default_str();
-  app.add_option("--data", data_folder,
+  app.add_option("--data", stores.data_folder,
                  "folder for scenes, jobs and checkpoints; without it all is kept in memory");
+  app.add_option(
+      "--database", stores.database,
+      "postgresql://...: records there, and not in DIR/lambert.db; of several servers on one "
+      "database and folder one works, and the others stand by");
   app.add_option("--jobs", options.max_running_jobs, "jobs that are solved at once")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
@@ -90,5 +104,5 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a full store, not the end
   spdlog::set_default_logger(spdlog::stderr_color_mt("lambert-server"));
   options.log = [](const std::string& line) { spdlog::info("{}", line); };
-  return lambert::server::Run(options, listen, data_folder, signals);
+  return lambert::server::Run(options, listen, stores, signals);
 }

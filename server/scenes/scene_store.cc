@@ -88,6 +88,7 @@ absl::StatusOr<v1::Scene> SceneStore::Create(const v1::CreateSceneRequest& reque
   if (status.ok()) {
     status = records_->Commit({{kKind, IdOf(scene->name()), scene->SerializeAsString()}});
   }
+  if (IsOwnershipLost(status)) return status;  // the blobs may be another server's by now
   bool is_kept = false;
   if (status.ok()) {
     absl::MutexLock lock(&mutex_);

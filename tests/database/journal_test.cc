@@ -57,7 +57,7 @@ class JournalOf : public testing::Test {
     journal.reset();
     refs.reset();
     stores = {};
-    stores = *OpenStores(folder.path());
+    stores = *OpenStores({folder.path(), {}});
     refs = std::make_unique<BlobRefs>(stores.blobs.get(), std::chrono::hours(1), SteadyNow);
     journal =
         std::make_unique<Journal>("job", stores.blobs.get(), refs.get(), stores.records.get());

@@ -90,11 +90,11 @@ TEST_F(SqliteRecords, OfAnotherKindOfFileAreRefused) {
 TEST(OpenStores, RefusesASecondServerUntilTheFirstHasEnded) {
   TemporaryFolder folder;
   {
-    absl::StatusOr<Stores> first = OpenStores(folder.path());
+    absl::StatusOr<Stores> first = OpenStores({folder.path(), {}});
     ASSERT_TRUE(first.ok());
-    EXPECT_EQ(ReasonOf(OpenStores(folder.path()).status()), "STORE_IN_USE");
+    EXPECT_EQ(ReasonOf(OpenStores({folder.path(), {}}).status()), "STORE_IN_USE");
   }
-  EXPECT_TRUE(OpenStores(folder.path()).ok());
+  EXPECT_TRUE(OpenStores({folder.path(), {}}).ok());
 }
 
 TEST(NullRecordStore, KeepsNothing) {

@@ -14,7 +14,7 @@ class Restart : public ServiceFixture {
  protected:
   void StartOnFolder(server::CoordinatorOptions options = {}) {
     Stop();
-    Serve(*server::Coordinator::Start(options, *server::OpenStores(folder_.path())));
+    Serve(*server::Coordinator::Start(options, *server::OpenStores({folder_.path(), {}})));
   }
   // Blocks until watchers have the job's first snapshot.
   void WaitForSnapshot(const std::string& job) {

@@ -11,14 +11,12 @@
 
 #include "client/channel.h"
 #include "client/client.h"
-#include "radiosity/shoot/shooter.h"
-#include "radiosity/solve/solver.h"
 #include "tests/distributed/farm.h"
+#include "tests/distributed/serial_solution.h"
 
 namespace lambert {
 namespace {
 
-constexpr int kSquares = 4;           // 512 patches
 constexpr int64_t kRays = 1'500'000;  // some half a second of one core
 
 SolveOptions Wanted(uint64_t seed) {
@@ -28,19 +26,6 @@ SolveOptions Wanted(uint64_t seed) {
   options.seed = seed;
   options.max_rays = kRays;
   return options;
-}
-
-SceneBundle Room() { return {"room.glb", ToGlb(MakeCornell(kSquares)), {}}; }
-
-std::string SolveSerially(uint64_t seed) {
-  auto patches = std::make_shared<const PatchSet>(*BuildPatches(*LoadGltf(Room()), {}));
-  const Plan plan = MakePlan(*patches, Wanted(seed));
-  SerialExecutor executor(*Shooter::Create(patches, plan.options.shoot));
-  Solver solver(patches, plan.options, [] { return 0.0; });
-  while (solver.stop_reason() == StopReason::kNone) {
-    if (!solver.RunPass(executor, nullptr).ok()) break;
-  }
-  return EncodeSolution(*solver.MakeSnapshot().solution);
 }
 
 // A farm whose server is started again whenever it dies.
@@ -64,7 +49,7 @@ class UndyingFarm {
 
   // Solves the room as a client that only waits; returns the solution's bytes.
   std::string Solve(uint64_t seed) {
-    auto scene = client_->SubmitScene(Room(), [](int64_t, int64_t) {});
+    auto scene = client_->SubmitScene(CornellBundle(), [](int64_t, int64_t) {});
     EXPECT_TRUE(scene.ok()) << scene.status();
     auto job = client_->CreateJob(scene->name, {}, Wanted(seed));
     EXPECT_TRUE(job.ok()) << job.status();
@@ -108,7 +93,7 @@ class UndyingFarm {
 class KilledServer : public testing::TestWithParam<const char*> {};
 
 TEST_P(KilledServer, EndsWithTheSameBytes) {
-  static const std::string expected = SolveSerially(1);
+  static const std::string expected = SolveSerially(Wanted(1));
   ProcessOptions environment;
   environment.environment["LAMBERT_FAILPOINT"] = GetParam();
   UndyingFarm farm(environment, nullptr);
@@ -145,7 +130,7 @@ TEST(KilledServerAtRandom, EndsWithTheSameBytes) {
   uint64_t seed = 0;
   while (farm.deaths() < kills) {
     ++seed;
-    EXPECT_TRUE(farm.Solve(seed) == SolveSerially(seed)) << seed;
+    EXPECT_TRUE(farm.Solve(seed) == SolveSerially(Wanted(seed))) << seed;
   }
   std::printf("%d kills in %d jobs\n", farm.deaths(), static_cast<int>(seed));
 }

@@ -5,16 +5,12 @@
 #include <algorithm>
 
 #include "local/local_service.h"
-#include "radiosity/patch/build_patches.h"
-#include "radiosity/scene/load_gltf.h"
-#include "radiosity/solve/plan.h"
-#include "radiosity/solve/solver.h"
 #include "tests/distributed/farm.h"
+#include "tests/distributed/serial_solution.h"
 
 namespace lambert {
 namespace {
 
-constexpr int kSquares = 4;           // 512 patches
 constexpr int64_t kRays = 3'000'000;  // about a second of one core
 
 std::string SolveSerially(Method method) {
@@ -22,15 +18,7 @@ std::string SolveSerially(Method method) {
   options.shoot.method = method;
   if (method == Method::kImportance) options.shoot.region = {"0"};
   options.max_rays = kRays;
-  auto patches = std::make_shared<const PatchSet>(
-      *BuildPatches(*LoadGltf({"room.glb", ToGlb(MakeCornell(kSquares)), {}}), {}));
-  const Plan plan = MakePlan(*patches, options);
-  SerialExecutor executor(*Shooter::Create(patches, plan.options.shoot));
-  Solver solver(patches, plan.options, [] { return 0.0; });
-  while (solver.stop_reason() == StopReason::kNone) {
-    if (!solver.RunPass(executor, nullptr).ok()) break;
-  }
-  return EncodeSolution(*solver.MakeSnapshot().solution);
+  return SolveSerially(options);
 }
 
 const std::string& ExpectedBytes() {
