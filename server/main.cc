@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 
+#include "server/base/files.h"
 #include "server/coordinator.h"
 #include "server/database/open_stores.h"
 #include "server/rpc/rpc_server.h"
@@ -20,6 +21,18 @@ namespace lambert::server {
 namespace {
 
 constexpr timespec kStandbyPause = {.tv_sec = 0, .tv_nsec = 200'000'000};
+
+// Where the program is reached, and where it keeps what it has.
+struct Places {
+  std::string listen = "127.0.0.1:7400";
+  std::string address_file;
+  StoreOptions stores;
+};
+
+int Fail(const absl::Status& status) {
+  std::fprintf(stderr, "error: %s\n", std::string(status.message()).c_str());
+  return 1;
+}
 
 absl::StatusOr<std::unique_ptr<Coordinator>> StartCoordinator(const CoordinatorOptions& options,
                                                               const StoreOptions& store_options) {
@@ -31,29 +44,28 @@ absl::StatusOr<std::unique_ptr<Coordinator>> StartCoordinator(const CoordinatorO
   return Coordinator::Start(options, *std::move(stores));
 }
 
-int Run(CoordinatorOptions options, const std::string& listen, StoreOptions stores,
-        const sigset_t& signals) {
+int Run(CoordinatorOptions options, Places places, const sigset_t& signals) {
   std::atomic<bool> lost{false};
   options.on_stores_lost = [&](const absl::Status& status) {
-    std::fprintf(stderr, "error: %s\n", std::string(status.message()).c_str());
+    Fail(status);
     lost = true;
     kill(getpid(), SIGTERM);
   };
-  stores.wait = [&, told = false]() mutable {
+  places.stores.wait = [&, told = false]() mutable {
     if (!told) options.log("another server owns the database; standing by");
     told = true;
     return sigtimedwait(&signals, nullptr, &kStandbyPause) < 0;
   };
-  absl::StatusOr<std::unique_ptr<Coordinator>> coordinator = StartCoordinator(options, stores);
+  absl::StatusOr<std::unique_ptr<Coordinator>> coordinator =
+      StartCoordinator(options, places.stores);
   if (absl::IsCancelled(coordinator.status())) return 0;  // stopped while it stood by
-  if (!coordinator.ok()) {
-    std::fprintf(stderr, "error: %s\n", std::string(coordinator.status().message()).c_str());
-    return 1;
-  }
-  absl::StatusOr<std::unique_ptr<RpcServer>> server = RpcServer::Start(coordinator->get(), listen);
-  if (!server.ok()) {
-    std::fprintf(stderr, "error: %s\n", std::string(server.status().message()).c_str());
-    return 1;
+  if (!coordinator.ok()) return Fail(coordinator.status());
+  absl::StatusOr<std::unique_ptr<RpcServer>> server =
+      RpcServer::Start(coordinator->get(), places.listen);
+  if (!server.ok()) return Fail(server.status());
+  if (!places.address_file.empty()) {
+    const absl::Status told = WriteFileAtomically(places.address_file, (*server)->address() + "\n");
+    if (!told.ok()) return Fail(told);
   }
   std::fprintf(stderr, "listening on %s\n", (*server)->address().c_str());
   int signal = 0;
@@ -67,14 +79,15 @@ int Run(CoordinatorOptions options, const std::string& listen, StoreOptions stor
 
 int main(int argc, char** argv) {
   CLI::App app("lambert-server: takes scenes from clients and has workers solve them");
-  std::string listen = "127.0.0.1:7400";
-  lambert::server::StoreOptions stores;
+  lambert::server::Places places;
   lambert::server::CoordinatorOptions options;
-  app.add_option("--listen", listen, "HOST:PORT; port 0 for any")->capture_default_str();
-  app.add_option("--data", stores.data_folder,
+  app.add_option("--listen", places.listen, "HOST:PORT; port 0 for any")->capture_default_str();
+  app.add_option("--address-file", places.address_file,
+                 "file to write HOST:PORT to once it listens (lambert-worker --server-file)");
+  app.add_option("--data", places.stores.data_folder,
                  "folder for scenes, jobs and checkpoints; without it all is kept in memory");
   app.add_option(
-      "--database", stores.database,
+      "--database", places.stores.database,
       "postgresql://...: records there, and not in DIR/lambert.db; of several servers on one "
       "database and folder one works, and the others stand by");
   app.add_option("--jobs", options.max_running_jobs, "jobs that are solved at once")
@@ -104,5 +117,5 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a full store, not the end
   spdlog::set_default_logger(spdlog::stderr_color_mt("lambert-server"));
   options.log = [](const std::string& line) { spdlog::info("{}", line); };
-  return lambert::server::Run(options, listen, stores, signals);
+  return lambert::server::Run(options, places, signals);
 }

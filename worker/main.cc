@@ -10,6 +10,7 @@
 #include <string>
 
 #include "absl/synchronization/mutex.h"
+#include "worker/server_file.h"
 #include "worker/worker.h"
 
 namespace {
@@ -31,14 +32,39 @@ sigset_t BlockSignals() {
   return signals;
 }
 
+// Works until a signal comes. With a `server_file` for the server that it names, also for one that
+// it names later.
+void Work(const std::string& server, const std::string& server_file,
+          const lambert::worker::WorkerOptions& options, const sigset_t& signals) {
+  constexpr timespec kLookAgain = {1, 0};
+  std::string address;
+  std::unique_ptr<lambert::worker::Worker> worker;
+  do {
+    const std::string named =
+        server_file.empty() ? server : lambert::worker::ReadServerFile(server_file);
+    if (named.empty() || named == address) continue;
+    options.log("the server is at " + named);
+    worker.reset();  // two at once would take one another's place
+    address = named;
+    worker = std::make_unique<lambert::worker::Worker>(lambert::worker::ConnectToServer(address),
+                                                       options);
+  } while (sigtimedwait(&signals, nullptr, &kLookAgain) < 0);
+  options.log("finishing what runs");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("lambert-worker: computes units of work for a lambert-server");
-  std::string server;
+  std::string server, server_file;
   lambert::worker::WorkerOptions options;
   options.worker_id = DefaultName();
-  app.add_option("--server", server, "HOST:PORT of the lambert-server")->required();
+  auto* where = app.add_option_group("server", "where the lambert-server is");
+  where->require_option(1);
+  where->add_option("--server", server, "HOST:PORT of the lambert-server");
+  where->add_option(
+      "--server-file", server_file,
+      "file that holds it (lambert-server --address-file); it may come later, and change");
   app.add_option("--slots", options.slots, "units that run at once, one thread each")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
@@ -59,14 +85,9 @@ int main(int argc, char** argv) {
   options.on_refused = [&](const absl::Status& status) {
     absl::MutexLock lock(&mutex);
     refused = status;
-    kill(getpid(), SIGTERM);  // wakes sigwait below
+    kill(getpid(), SIGTERM);  // wakes Work
   };
-  {
-    lambert::worker::Worker worker(lambert::worker::ConnectToServer(server), options);
-    int signal = 0;
-    sigwait(&signals, &signal);
-    options.log("finishing what runs");
-  }
+  Work(server, server_file, options, signals);
   absl::MutexLock lock(&mutex);
   if (refused.ok()) return 0;
   std::fprintf(stderr, "error: %s\n", std::string(refused.message()).c_str());

@@ -33,9 +33,25 @@ TEST(Programs, AWorkerWaitsForItsServer) {
   EXPECT_EQ(worker.Wait(), 0);
 }
 
+TEST(Programs, AWorkerFollowsTheAddressFileFromServerToServer) {
+  TemporaryFolder folder;
+  const std::string file = folder.path() + "/address";
+  Process worker({LAMBERT_WORKER, "--server-file", file});
+  Farm first({"--address-file", file});
+  const size_t found = worker.WaitForError("the server is at " + first.address());
+  const size_t at_work = worker.WaitForError("at work", found);
+  Farm second({"--address-file", file});
+  ASSERT_NE(second.address(), first.address());
+  const size_t moved = worker.WaitForError("the server is at " + second.address(), at_work);
+  EXPECT_NE(worker.WaitForError("at work", moved), std::string::npos);
+  worker.Signal(SIGTERM);
+  EXPECT_EQ(worker.Wait(), 0);
+}
+
 TEST(Programs, RefuseWrongUseWithTwo) {
   EXPECT_EQ(Process({LAMBERT_SERVER, "--no-such-flag"}).Wait(), 2);
   EXPECT_EQ(Process({LAMBERT_WORKER}).Wait(), 2);
+  EXPECT_EQ(Process({LAMBERT_WORKER, "--server", "127.0.0.1:1", "--server-file", "f"}).Wait(), 2);
   EXPECT_EQ(Process({LAMBERT_WORKER, "--server", "127.0.0.1:1", "--slots", "0"}).Wait(), 2);
 }
 
