@@ -29,13 +29,12 @@ function(lambert_room name)
   target_link_libraries(lambert_${name} PUBLIC lambert_flags ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE})
 endfunction()
 
-# lambert_program(NAME SOURCES ... LIBS ...): an installed program with a command line and a log.
+# lambert_program(NAME SOURCES ... LIBS ...): an installed program with a command line.
 function(lambert_program name)
   cmake_parse_arguments(PROGRAM "" "" "SOURCES;LIBS" ${ARGN})
   find_package(CLI11 CONFIG REQUIRED)
-  find_package(spdlog REQUIRED)
   add_executable(${name} ${PROGRAM_SOURCES})
-  target_link_libraries(${name} PRIVATE ${PROGRAM_LIBS} CLI11::CLI11 spdlog::spdlog)
+  target_link_libraries(${name} PRIVATE ${PROGRAM_LIBS} CLI11::CLI11)
   install(TARGETS ${name})
 endfunction()
 

@@ -10,14 +10,15 @@ option(LAMBERT_BUILD_BENCH "The benchmarks of shooting, where Google Benchmark i
 # The rooms of the parts that are wanted.
 set(shooting radiosity/core radiosity/patch radiosity/pyramid radiosity/trace radiosity/exact
   radiosity/shoot)
+set(telling radiosity/core telemetry)
 set(serving ${shooting} radiosity/scene radiosity/solve proto server)
 set(working ${shooting} proto worker)
 set(LAMBERT_ROOMS radiosity/core)
 if(LAMBERT_BUILD_SERVER)
-  list(APPEND LAMBERT_ROOMS ${serving})
+  list(APPEND LAMBERT_ROOMS ${telling} ${serving})
 endif()
 if(LAMBERT_BUILD_WORKER)
-  list(APPEND LAMBERT_ROOMS ${working})
+  list(APPEND LAMBERT_ROOMS ${telling} ${working})
 endif()
 if(LAMBERT_BUILD_CLIENT)
   list(APPEND LAMBERT_ROOMS ${serving} ${working} radiosity/output client local app)

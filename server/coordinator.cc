@@ -72,7 +72,7 @@ absl::Status Coordinator::Restore() {
       if (absl::Status saved = jobs_.Save(*job, {journal.Clear()}); !saved.ok()) return saved;
       journal.Settle();
     }
-    options_.log(job->name() + " is gone on with");
+    options_.log({"the job is gone on with", {.job = job->name()}});
     scheduler_->Add(std::move(job));
   }
   return absl::OkStatus();
@@ -151,7 +151,7 @@ absl::StatusOr<v1::SolveJob> Coordinator::CreateJob(const v1::CreateSolveJobRequ
       jobs_.Create(request, scene->display_name(), unit_version_);
   if (!created.ok()) return created.status();
   if (created->is_new) {
-    options_.log(created->job->name() + " created for " + scene->display_name());
+    options_.log({"created for " + scene->display_name(), {.job = created->job->name()}});
     scheduler_->Add(created->job);
   }
   return created->job->Get();

@@ -15,6 +15,7 @@
 #include "server/base/clock.h"
 #include "server/base/record_store.h"
 #include "server/base/task_pool.h"
+#include "server/base/traffic.h"
 #include "server/blobs/blob_refs.h"
 #include "server/blobs/blob_store.h"
 #include "server/blobs/uploads.h"
@@ -37,7 +38,7 @@ struct CoordinatorOptions {
   std::string unit_version;  // "": that of this program
   Clock clock = SteadyNow;
   JournalMode journal = JournalMode::kAuto;
-  Log log = [](const std::string&) {};
+  Log log = [](const LogLine&) {};
   // Told once, from any thread, that the stores belong to somebody else now (FENCED), or cannot be
   // reached (DATABASE_LOST): the coordinator has stopped its jobs, and its process should end.
   std::function<void(const absl::Status&)> on_stores_lost = [](const absl::Status&) {};
@@ -77,6 +78,7 @@ class Coordinator {
   JobStore& jobs() { return jobs_; }
   WorkTable& work() { return work_; }
   TaskPool& pool() { return pool_; }
+  Traffic& traffic() { return traffic_; }
 
  private:
   Coordinator(const CoordinatorOptions& options, Stores stores);
@@ -97,6 +99,7 @@ class Coordinator {
   SceneStore scenes_;
   JobStore jobs_;
   WorkTable work_;
+  Traffic traffic_;
   JobRunner runner_;
   std::unique_ptr<Scheduler> scheduler_;
   TaskPool pool_;

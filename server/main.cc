@@ -1,7 +1,4 @@
 // lambert-server: the coordinator as a program.
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
-
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -15,7 +12,10 @@
 #include "server/base/files.h"
 #include "server/coordinator.h"
 #include "server/database/open_stores.h"
+#include "server/metrics_text.h"
 #include "server/rpc/rpc_server.h"
+#include "telemetry/http_server.h"
+#include "telemetry/options.h"
 
 namespace lambert::server {
 namespace {
@@ -25,7 +25,7 @@ constexpr timespec kStandbyPause = {.tv_sec = 0, .tv_nsec = 200'000'000};
 // Where the program is reached, and where it keeps what it has.
 struct Places {
   std::string listen = "127.0.0.1:7400";
-  std::string address_file;
+  std::string address_file, http;
   StoreOptions stores;
 };
 
@@ -56,18 +56,30 @@ int Run(CoordinatorOptions options, Places places, const sigset_t& signals) {
     told = true;
     return sigtimedwait(&signals, nullptr, &kStandbyPause) < 0;
   };
-  absl::StatusOr<std::unique_ptr<Coordinator>> coordinator =
-      StartCoordinator(options, places.stores);
-  if (absl::IsCancelled(coordinator.status())) return 0;  // stopped while it stood by
-  if (!coordinator.ok()) return Fail(coordinator.status());
+  // Before the coordinator, so that a server that stands by is healthy, if not ready.
+  std::unique_ptr<Coordinator> coordinator;
+  std::atomic<bool> serving{false};
+  absl::StatusOr<std::unique_ptr<HttpServer>> telemetry = nullptr;
+  if (!places.http.empty()) {
+    telemetry = HttpServer::Start(
+        places.http, {[&] { return serving ? MetricsText(*coordinator) : std::string(); },
+                      [&] { return serving && !coordinator->is_shutting_down(); }});
+    if (!telemetry.ok()) return Fail(telemetry.status());
+    options.log("metrics on http://" + (*telemetry)->address());
+  }
+  absl::StatusOr<std::unique_ptr<Coordinator>> started = StartCoordinator(options, places.stores);
+  if (absl::IsCancelled(started.status())) return 0;  // stopped while it stood by
+  if (!started.ok()) return Fail(started.status());
+  coordinator = *std::move(started);
   absl::StatusOr<std::unique_ptr<RpcServer>> server =
-      RpcServer::Start(coordinator->get(), places.listen);
+      RpcServer::Start(coordinator.get(), places.listen);
   if (!server.ok()) return Fail(server.status());
   if (!places.address_file.empty()) {
     const absl::Status told = WriteFileAtomically(places.address_file, (*server)->address() + "\n");
     if (!told.ok()) return Fail(told);
   }
-  std::fprintf(stderr, "listening on %s\n", (*server)->address().c_str());
+  options.log("listening on " + (*server)->address());
+  serving = true;
   int signal = 0;
   sigwait(&signals, &signal);
   options.log("stopping");
@@ -102,6 +114,8 @@ int main(int argc, char** argv) {
           CLI::CheckedTransformer(std::map<std::string, JournalMode>{{"auto", JournalMode::kAuto},
                                                                      {"every", JournalMode::kEvery},
                                                                      {"off", JournalMode::kOff}}));
+  lambert::TelemetryOptions telemetry;
+  lambert::AddTelemetryOptions(app, telemetry);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -115,7 +129,7 @@ int main(int argc, char** argv) {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a full store, not the end
-  spdlog::set_default_logger(spdlog::stderr_color_mt("lambert-server"));
-  options.log = [](const std::string& line) { spdlog::info("{}", line); };
+  options.log = options.work.log = lambert::StartLog("lambert-server", telemetry.log_format);
+  places.http = telemetry.http;
   return lambert::server::Run(options, places, signals);
 }

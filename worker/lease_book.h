@@ -9,8 +9,15 @@
 
 #include "absl/synchronization/mutex.h"
 #include "lambert/worker/v1/worker_service.pb.h"
+#include "radiosity/core/log.h"
 
 namespace lambert::worker {
+
+// What a log line about a lease is about.
+inline LogSubject SubjectOf(const v1::Lease& lease) {
+  const v1::UnitKey& unit = lease.unit_key();
+  return {unit.solve_job(), unit.step_number(), unit.unit_index()};
+}
 
 // Thread safe.
 class LeaseBook {

@@ -1,6 +1,4 @@
 // lambert-worker: a worker as a program.
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +8,9 @@
 #include <string>
 
 #include "absl/synchronization/mutex.h"
+#include "telemetry/http_server.h"
+#include "telemetry/options.h"
+#include "worker/metrics_text.h"
 #include "worker/server_file.h"
 #include "worker/worker.h"
 
@@ -70,6 +71,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--name", options.worker_id, "unique among the server's workers")
       ->capture_default_str();
+  lambert::TelemetryOptions telemetry;
+  lambert::AddTelemetryOptions(app, telemetry);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -77,11 +80,27 @@ int main(int argc, char** argv) {
   }
   const sigset_t signals = BlockSignals();
   std::signal(SIGPIPE, SIG_IGN);
-  spdlog::set_default_logger(spdlog::stderr_color_mt("lambert-worker"));
+  options.log = [log = lambert::StartLog("lambert-worker", telemetry.log_format),
+                 name = options.worker_id](lambert::LogLine line) {
+    line.about.worker = name;
+    log(line);
+  };
+  std::unique_ptr<lambert::HttpServer> http;
+  if (!telemetry.http.empty()) {
+    auto started = lambert::HttpServer::Start(
+        telemetry.http,
+        {[&] { return lambert::worker::MetricsText(*options.counters, options.slots); },
+         [&] { return options.counters->in_session.load(); }});
+    if (!started.ok()) {
+      std::fprintf(stderr, "error: %s\n", std::string(started.status().message()).c_str());
+      return 1;
+    }
+    http = *std::move(started);
+    options.log("metrics on http://" + http->address());
+  }
 
   absl::Mutex mutex;
   absl::Status refused;
-  options.log = [](const std::string& line) { spdlog::info("{}", line); };
   options.on_refused = [&](const absl::Status& status) {
     absl::MutexLock lock(&mutex);
     refused = status;

@@ -5,13 +5,8 @@
 
 namespace lambert::worker {
 
-ResultSender::ResultSender(ServerLink* link, LeaseBook* book, int capacity,
-                           std::function<void(const std::string&)> log)
-    : link_(link),
-      book_(book),
-      capacity_(static_cast<size_t>(capacity)),
-      log_(std::move(log)),
-      thread_([this] { Work(); }) {}
+ResultSender::ResultSender(ServerLink* link, LeaseBook* book, const WorkerOptions& options)
+    : link_(link), book_(book), options_(options), thread_([this] { Work(); }) {}
 
 ResultSender::~ResultSender() {
   {
@@ -23,7 +18,9 @@ ResultSender::~ResultSender() {
 
 void ResultSender::Send(const v1::Lease& lease, UnitResult result, double run_seconds) {
   absl::MutexLock lock(&mutex_);
-  auto has_room = [this]() ABSL_SHARED_LOCKS_REQUIRED(mutex_) { return items_.size() < capacity_; };
+  auto has_room = [this]() ABSL_SHARED_LOCKS_REQUIRED(mutex_) {
+    return items_.size() <= static_cast<size_t>(options_.slots);
+  };
   mutex_.Await(absl::Condition(&has_room));
   items_.push_back({lease, std::move(result), run_seconds});
 }
@@ -49,6 +46,7 @@ void ResultSender::Work() {
 
 void ResultSender::SendOne(const Item& item) {
   const std::string bytes = EncodeUnitResult(item.result);
+  options_.counters->result_bytes += static_cast<int64_t>(bytes.size());
   v1::SubmitUnitResultRequest header;
   header.set_lease(item.lease.name());
   *header.mutable_unit_key() = item.lease.unit_key();
@@ -64,8 +62,8 @@ void ResultSender::SendOne(const Item& item) {
                                    absl::IsDeadlineExceeded(sent.status()) ||
                                    absl::IsCancelled(sent.status());  // by a server that goes
     if (!is_worth_retrying || stop_retrying_.HasBeenNotified()) {
-      log_(item.lease.name() +
-           ": its result was not taken: " + std::string(sent.status().message()));
+      options_.log({"the result was not taken: " + std::string(sent.status().message()),
+                    SubjectOf(item.lease)});
       return;
     }
     backoff.Sleep(stop_retrying_);

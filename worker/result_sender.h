@@ -2,8 +2,6 @@
 #pragma once
 
 #include <deque>
-#include <functional>
-#include <string>
 #include <thread>
 #include <utility>
 
@@ -13,15 +11,15 @@
 #include "radiosity/shoot/unit.h"
 #include "worker/lease_book.h"
 #include "worker/server_link.h"
+#include "worker/worker.h"
 
 namespace lambert::worker {
 
 // Thread safe.
 class ResultSender {
  public:
-  // Holds at most `capacity` results; `log` is called from any thread.
-  ResultSender(ServerLink* link, LeaseBook* book, int capacity,
-               std::function<void(const std::string&)> log);
+  // Holds at most one result a slot, and one more.
+  ResultSender(ServerLink* link, LeaseBook* book, const WorkerOptions& options);
   // Sends what is there.
   ~ResultSender();
 
@@ -42,8 +40,7 @@ class ResultSender {
 
   ServerLink* const link_;
   LeaseBook* const book_;
-  const size_t capacity_;
-  const std::function<void(const std::string&)> log_;
+  const WorkerOptions options_;
   absl::Notification stop_retrying_;
   absl::Mutex mutex_;
   std::deque<Item> items_ ABSL_GUARDED_BY(mutex_);

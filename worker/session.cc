@@ -33,6 +33,7 @@ void Session::End() {
   ended_.Notify();
   link_->InterruptSync();
   thread_.join();
+  options_.counters->in_session = false;
   if (session_.has_value()) link_->DeleteSession(session_->name());
 }
 
@@ -52,6 +53,7 @@ void Session::Work() {
     } else if (absl::IsNotFound(status) || absl::IsAborted(status)) {
       options_.log("the session has ended: " + std::string(status.message()));
       session_.reset();
+      options_.counters->in_session = false;
       book_->Forget();
     } else if (!absl::IsCancelled(status)) {
       backoff.Sleep(draining_.HasBeenNotified() ? ended_ : draining_);
@@ -68,6 +70,7 @@ bool Session::Open() {
   if (session.ok()) {
     options_.log("at work as " + session->name());
     session_ = *std::move(session);
+    options_.counters->in_session = true;
     sequence_ = 1;
     return true;
   }

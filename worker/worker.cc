@@ -3,6 +3,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <optional>
 #include <thread>
@@ -26,6 +27,7 @@ constexpr int kMaxMessageBytes = 64 << 20;
 struct Ran {
   UnitResult result;
   double run_seconds = 0;
+  int64_t rays = 0;
 };
 
 absl::StatusOr<Ran> RunUnit(ShooterCache& shooters, const v1::Lease& lease) try {
@@ -39,7 +41,7 @@ absl::StatusOr<Ran> RunUnit(ShooterCache& shooters, const v1::Lease& lease) try 
   absl::StatusOr<UnitResult> result = (*shooter)->Run(*unit);
   if (!result.ok()) return result.status();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  return Ran{*std::move(result), took.count()};
+  return Ran{*std::move(result), took.count(), unit->RayCount()};
 } catch (const std::exception& error) {  // memory exhausted, at the worst
   return absl::ResourceExhaustedError(error.what());
 }
@@ -51,10 +53,13 @@ class Worker::Impl {
   Impl(std::shared_ptr<grpc::Channel> channel, const WorkerOptions& options)
       : options_(options),
         link_(std::move(channel)),
-        shooters_([this](const std::string& sha256,
-                         int64_t size_bytes) { return link_.Download(sha256, size_bytes); },
-                  options.make_shooter, kShooters),
-        sender_(&link_, &book_, options.slots + 1, options.log),
+        shooters_(
+            [this](const std::string& sha256, int64_t size_bytes) {
+              counters_.patch_bytes += size_bytes;
+              return link_.Download(sha256, size_bytes);
+            },
+            options.make_shooter, kShooters),
+        sender_(&link_, &book_, options),
         session_(&link_, &book_, options) {
     for (int i = 0; i < options.slots; ++i) {
       runners_.emplace_back([this] { RunUnits(); });
@@ -72,11 +77,17 @@ class Worker::Impl {
  private:
   void RunUnits() {
     while (std::optional<v1::Lease> lease = book_.Take()) {
+      ++counters_.running;
       absl::StatusOr<Ran> ran = RunUnit(shooters_, *lease);
+      --counters_.running;
       if (ran.ok()) {
+        ++counters_.units_done;
+        counters_.rays += ran->rays;
+        counters_.run_microseconds += std::llround(ran->run_seconds * 1e6);
         sender_.Send(*lease, std::move(ran->result), ran->run_seconds);
       } else {
-        options_.log(lease->name() + " failed: " + std::string(ran.status().message()));
+        ++counters_.units_failed;
+        options_.log({"unit failed: " + std::string(ran.status().message()), SubjectOf(*lease)});
         book_.Fail(lease->name(), std::string(ran.status().message()));
         session_.Report();
       }
@@ -84,6 +95,7 @@ class Worker::Impl {
   }
 
   const WorkerOptions options_;
+  WorkerCounters& counters_ = *options_.counters;
   ServerLink link_;
   LeaseBook book_;
   ShooterCache shooters_;

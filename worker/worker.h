@@ -6,7 +6,9 @@
 #include <string>
 
 #include "absl/status/status.h"
+#include "radiosity/core/log.h"
 #include "worker/shooter_cache.h"
+#include "worker/worker_counters.h"
 
 namespace grpc {
 class Channel;
@@ -19,7 +21,9 @@ struct WorkerOptions {
   int slots = 1;             // units that run at once, each on its own thread, 1 to 4096
   std::string unit_version;  // "": that of this program
   ShooterFactory make_shooter = Shooter::Create;
-  std::function<void(const std::string&)> log = [](const std::string&) {};  // any thread
+  Log log = [](const LogLine&) {};
+  // Is kept up to date; workers that follow one another may share it.
+  std::shared_ptr<WorkerCounters> counters = std::make_shared<WorkerCounters>();
   // The server will never take this worker (another unit version); any thread.
   std::function<void(const absl::Status&)> on_refused = [](const absl::Status&) {};
 };

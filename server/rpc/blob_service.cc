@@ -48,6 +48,7 @@ class UploadReactor : public grpc::ServerReadReactor<v1::UploadBlobRequest> {
         digest_.sha256(), digest_.size_bytes(), request_.offset_bytes(), request_.data());
     if (!committed.ok()) return Finish(ToGrpc(committed.status()));
     if (*committed == digest_.size_bytes()) coordinator_->refs().NoteUpload(digest_.sha256());
+    coordinator_->traffic().uploaded_bytes += static_cast<int64_t>(request_.data().size());
     response_->set_committed_size_bytes(*committed);
     StartRead(&request_);
   }
@@ -60,7 +61,9 @@ class UploadReactor : public grpc::ServerReadReactor<v1::UploadBlobRequest> {
 
 class DownloadReactor : public grpc::ServerWriteReactor<v1::DownloadBlobResponse> {
  public:
-  DownloadReactor(absl::StatusOr<std::shared_ptr<const Blob>> blob, int64_t offset_bytes) {
+  DownloadReactor(Traffic* traffic, absl::StatusOr<std::shared_ptr<const Blob>> blob,
+                  int64_t offset_bytes)
+      : traffic_(traffic) {
     if (!blob.ok()) {
       Finish(ToGrpc(blob.status()));
     } else if (offset_bytes < 0 || offset_bytes > static_cast<int64_t>((*blob)->bytes().size())) {
@@ -89,9 +92,11 @@ class DownloadReactor : public grpc::ServerWriteReactor<v1::DownloadBlobResponse
     const size_t size = std::min(rest.size(), kChunkBytes);
     response_.set_data(rest.data(), size);
     offset_ += size;
+    traffic_->downloaded_bytes += static_cast<int64_t>(size);
     StartWrite(&response_);
   }
 
+  Traffic* const traffic_;
   std::shared_ptr<const Blob> blob_;
   size_t offset_ = 0;
   v1::DownloadBlobResponse response_;
@@ -125,7 +130,7 @@ class BlobService : public v1::BlobService::CallbackService {
     absl::StatusOr<std::shared_ptr<const Blob>> blob =
         FieldInvalid("sha256", "is not a SHA-256", "send 64 lower-case hexadecimal characters");
     if (IsSha256Hex(request->sha256())) blob = coordinator_->blobs().Get(request->sha256());
-    return new DownloadReactor(std::move(blob), request->offset_bytes());
+    return new DownloadReactor(&coordinator_->traffic(), std::move(blob), request->offset_bytes());
   }
 
  private:

@@ -42,7 +42,10 @@ class WatchReactor : public grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>
     reactor->OnNews();
     return reactor.get();
   }
-  explicit WatchReactor(Coordinator* coordinator) : coordinator_(coordinator) {}
+  explicit WatchReactor(Coordinator* coordinator) : coordinator_(coordinator) {
+    ++coordinator_->traffic().watchers;
+  }
+  ~WatchReactor() override { --coordinator_->traffic().watchers; }
 
   void OnNews() override {
     absl::MutexLock lock(&mutex_);

@@ -72,7 +72,9 @@ absl::Status JobRunner::Solve(Job& job, Journal& journal) {
                                     (*patches)->size(), EncodeShootOptions(plan.options.shoot),
                                     plan.options.shoot.method == Method::kPhsAlpha});
   JournalExecutor executor(&table, &journal, parts_.journal, (*patches)->size(), parts_.clock,
-                           [&](const std::string& line) { parts_.log(job.name() + " " + line); });
+                           [&](const std::string& line) {
+                             parts_.log({line, {.job = job.name()}});
+                           });
   return RunPasses(job, journal, solver, executor);
 }
 
@@ -183,12 +185,13 @@ void JobRunner::Finish(Job& job, Journal& journal, const absl::Status& status) {
     job.Update(end);
   }
   const v1::SolveJob record = job.Get();
-  parts_.log(job.name() + " " + v1::SolveJob::State_Name(record.state()) + " after " +
-             std::to_string(record.progress().ray_count()) + " rays" +
-             (status.ok() ? "" : ": " + std::string(status.message())) +
-             (saved.ok()
-                  ? ""
-                  : " (its record could not be written: " + std::string(saved.message()) + ")"));
+  parts_.log({v1::SolveJob::State_Name(record.state()) + " after " +
+                  std::to_string(record.progress().ray_count()) + " rays" +
+                  (status.ok() ? "" : ": " + std::string(status.message())) +
+                  (saved.ok() ? ""
+                              : " (its record could not be written: " +
+                                    std::string(saved.message()) + ")"),
+              {.job = job.name()}});
 }
 
 }  // namespace lambert::server

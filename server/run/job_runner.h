@@ -6,6 +6,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "radiosity/core/log.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/solve/solver.h"
 #include "server/base/clock.h"
@@ -20,8 +21,6 @@
 #include "server/work/work_table.h"
 
 namespace lambert::server {
-
-using Log = std::function<void(const std::string&)>;  // any thread
 
 // What the runner works with; all of it outlives the runner and is thread safe.
 struct RunnerParts {

@@ -1,4 +1,5 @@
 // WorkTable::Submit: what becomes of a result.
+#include <cmath>
 #include <utility>
 
 #include "radiosity/core/error.h"
@@ -10,6 +11,22 @@ namespace {
 // Above what docs/formats.md gives a unit result.
 constexpr int64_t kMaxResultHeaderBytes = 1024;
 constexpr int64_t kMaxDepositBytes = 64, kMaxSightingBytes = 64;
+
+void Count(const absl::StatusOr<SubmitOutcome>& outcome, WorkCounters& counters) {
+  if (!outcome.ok()) {
+    ++counters.results_refused;
+  } else if (*outcome == SubmitOutcome::kAccepted) {
+    ++counters.results_accepted;
+  } else if (*outcome == SubmitOutcome::kDuplicate) {
+    ++counters.results_duplicate;
+  } else {
+    ++counters.results_obsolete;
+  }
+}
+
+int64_t Microseconds(double seconds) {
+  return seconds > 0 && seconds < 1e9 ? std::llround(seconds * 1e6) : 0;
+}
 
 }  // namespace
 
@@ -81,6 +98,8 @@ absl::StatusOr<SubmitOutcome> WorkTable::Settle(const Submission& submission, co
   } else if (is_current) {
     FinishUnit(state_, {submission.job, submission.unit}, submission.digest, claim.worker,
                submission.run_seconds);
+    counters_.rays += state_.steps.at(submission.job).units[submission.unit].rays;
+    counters_.run_microseconds += Microseconds(submission.run_seconds);
     outcome = SubmitOutcome::kAccepted;
   }
   if (auto lease = state_.leases.find(submission.lease); lease != state_.leases.end()) {
@@ -92,8 +111,10 @@ absl::StatusOr<SubmitOutcome> WorkTable::Settle(const Submission& submission, co
 }
 
 absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
+  counters_.result_bytes += static_cast<int64_t>(submission.bytes.size());
   absl::StatusOr<Claim> claim = Examine(submission);
   if (!claim.ok()) return claim.status();
+  const TimePoint began = clock_();
   // A repetition need not be decoded; one that differs must be sound before it accuses anybody.
   absl::StatusOr<UnitResult> result = UnitResult{};
   if (claim->is_new) {
@@ -113,6 +134,8 @@ absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
     result->cpu_seconds = submission.cpu_seconds;
     claim->step->Merge(*result, claim->grain_count);
   }
+  Count(outcome, counters_);
+  counters_.merge_microseconds += Microseconds(ToSeconds(clock_() - began));
   return outcome;
 }
 

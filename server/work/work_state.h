@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "radiosity/core/log.h"
 #include "server/base/clock.h"
 
 namespace lambert::server {
@@ -22,6 +23,7 @@ struct WorkOptions {
       std::chrono::seconds(1);      // ... nor before that, its job's pace unknown
   double straggler_factor = 2;      // a unit is late after this many times its expected time, >= 1
   int max_attempts = 5;             // leases of one unit that may end without a result, > 0
+  Log log = [](const LogLine&) {};  // of sessions that end and leases that fail
   int64_t max_unit_rays = 1 << 21;  // about half a second: grains are lent together up to that, > 0
 };
 

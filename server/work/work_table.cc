@@ -87,6 +87,7 @@ absl::StatusOr<std::string> WorkTable::OpenSession(const std::string& worker_id,
     session.slots = slots;
     session.last_seen = clock_();
     exchanges_[name];
+    Note("session opened, " + std::to_string(slots) + " slots", {.worker = worker_id});
     Dispatch(calls);
   }
   MakeCalls(calls);
@@ -176,6 +177,7 @@ void WorkTable::EndSession(const std::string& name, bool failed, const std::stri
                            Calls& calls) {
   auto session = state_.sessions.find(name);
   if (session == state_.sessions.end()) return;
+  Note("session ended" + (why.empty() ? "" : ": " + why), {.worker = session->second.worker_id});
   const std::set<std::string> leases = session->second.leases;
   for (const std::string& lease : leases) {
     if (failed) {
@@ -201,6 +203,9 @@ void WorkTable::FailLease(const std::string& lease, const std::string& why) {
   const LeaseState held = found->second;
   const std::string worker = WorkerOf(lease);
   RemoveLease(state_, lease, /*failed=*/true);
+  ++counters_.leases_failed;
+  Note("lease failed: " + why,
+       {"solveJobs/" + held.unit.job, held.step_number, held.unit.unit, worker});
   if (held.revoked) return;
   const UnitState& unit = state_.steps.at(held.unit.job).units[held.unit.unit];
   if (unit.attempts < options_.max_attempts) return;
@@ -231,6 +236,8 @@ void WorkTable::Dispatch(Calls& calls) {
     const std::string lease = grant.session + "/leases/" + std::to_string(next_name_++);
     const int unit =
         grant.new_grains > 0 ? CutUnit(state_, grant.job, grant.new_grains) : grant.unit;
+    ++counters_.leases_granted;
+    if (grant.new_grains == 0) ++counters_.leases_repeated;
     AddLease(state_, {grant.job, unit}, grant.session, lease, now);
     const UnitState& lent = state_.steps.at(grant.job).units[unit];
     granted[grant.session].push_back(
@@ -303,6 +310,7 @@ void WorkTable::ForgetJob(const std::string& job) {
 
 void WorkTable::Tick() {
   Calls calls;
+  std::vector<LogLine> notes;
   {
     absl::MutexLock lock(&mutex_);
     std::vector<std::string> silent;
@@ -311,7 +319,9 @@ void WorkTable::Tick() {
     }
     for (const std::string& name : silent) EndSession(name, true, "the worker fell silent", calls);
     Dispatch(calls);
+    notes.swap(notes_);
   }
+  for (const LogLine& note : notes) options_.log(note);
   MakeCalls(calls);
 }
 
@@ -325,16 +335,6 @@ void WorkTable::Shutdown() {
     for (auto& [name, session] : state_.sessions) session.waiting = false;
   }
   MakeCalls(calls);
-}
-
-std::vector<WorkerInfo> WorkTable::ListWorkers() const {
-  absl::MutexLock lock(&mutex_);
-  std::vector<WorkerInfo> workers;
-  for (const auto& [name, session] : state_.sessions) {
-    workers.push_back({session.worker_id, session.slots, static_cast<int>(session.leases.size()),
-                       session.finished_units, ToSeconds(clock_() - session.last_seen)});
-  }
-  return workers;
 }
 
 }  // namespace lambert::server

@@ -13,6 +13,8 @@
 #include "server/base/clock.h"
 #include "server/work/next_leases.h"
 #include "server/work/published_step.h"
+#include "server/work/work_counters.h"
+#include "server/work/work_load.h"
 #include "server/work/work_state.h"
 
 namespace lambert::server {
@@ -108,6 +110,8 @@ class WorkTable {
   void Shutdown();
 
   std::vector<WorkerInfo> ListWorkers() const;
+  WorkLoad Load() const;
+  const WorkCounters& counters() const { return counters_; }
 
  private:
   // A session's calls, beside its SessionState.
@@ -132,6 +136,8 @@ class WorkTable {
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void FailLease(const std::string& lease, const std::string& why)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // Is logged by the next tick, which holds no lock.
+  void Note(std::string text, LogSubject about) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void TellRevoked() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // The step that a submission is for, or null where it is over.
   std::shared_ptr<PublishedStep> FindStep(const std::string& job, int64_t step_number) const
@@ -156,10 +162,12 @@ class WorkTable {
   const WorkOptions options_;
   const std::string unit_version_;
   const Clock clock_;
+  WorkCounters counters_;
   mutable absl::Mutex mutex_;
   int64_t next_step_ ABSL_GUARDED_BY(mutex_);
   int64_t next_name_ ABSL_GUARDED_BY(mutex_);
   bool shutting_down_ ABSL_GUARDED_BY(mutex_) = false;
+  std::vector<LogLine> notes_ ABSL_GUARDED_BY(mutex_);
   WorkState state_ ABSL_GUARDED_BY(mutex_);
   std::map<std::string, Exchange> exchanges_ ABSL_GUARDED_BY(mutex_);  // by session
   std::map<std::string, std::shared_ptr<PublishedStep>> steps_ ABSL_GUARDED_BY(mutex_);  // by job

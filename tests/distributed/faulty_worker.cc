@@ -72,7 +72,7 @@ int Main(int argc, char** argv) {
     if (!honest.ok()) return honest.status();
     return std::make_shared<const FaultyShooter>(*std::move(honest), fault);
   };
-  options.log = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
+  options.log = [](const LogLine& line) { std::fprintf(stderr, "%s\n", line.text.c_str()); };
   options.on_refused = [](const absl::Status& status) {
     std::fprintf(stderr, "error: %s\n", std::string(status.message()).c_str());
     std::_Exit(1);

@@ -20,8 +20,8 @@ part() {
   fi
 }
 
-part WORKER SQLite3 TinyGLTF OpenEXR nlohmann_json roaring GTest rapidcheck benchmark
+part WORKER SQLite3 TinyGLTF OpenEXR roaring GTest rapidcheck benchmark
 part SERVER OpenEXR GTest rapidcheck benchmark
-part CLIENT spdlog SQLite3 GTest rapidcheck benchmark
+part CLIENT spdlog prometheus-cpp civetweb SQLite3 GTest rapidcheck benchmark
 part BENCH TinyGLTF OpenEXR roaring Protobuf gRPC spdlog CLI11 GTest rapidcheck
 part TESTS TinyGLTF OpenEXR embree roaring Protobuf gRPC spdlog CLI11 benchmark

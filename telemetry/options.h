@@ -1,0 +1,18 @@
+// The options of how a program shows what it does, named once for the server and the worker.
+#pragma once
+
+#include <string>
+
+#include "CLI/CLI.hpp"
+#include "telemetry/log.h"
+
+namespace lambert {
+
+struct TelemetryOptions {
+  std::string http;  // HOST:PORT of /metrics, /healthz, /readyz; "": not served
+  LogFormat log_format = LogFormat::kText;
+};
+
+void AddTelemetryOptions(CLI::App& app, TelemetryOptions& options);  // --http, --log-format
+
+}  // namespace lambert
