@@ -91,8 +91,7 @@ std::string CommandName(const CLI::App& parser) { return "lambert " + parser.get
 
 void Parser::AddBaking() {
   CLI::App& bake = Add(Command::kBake, "bake", "solve a scene and write the result");
-  CLI::App& plan =
-      Add(Command::kPlan, "plan", "say what would be done and left out; solve nothing");
+  CLI::App& plan = Add(Command::kPlan, "plan", "say what would be done and left out");
   CLI::App& submit = Add(Command::kSubmit, "submit", "start a job on a server, print its name");
   for (CLI::App* command : {&bake, &plan, &submit}) {
     if (command == &bake) AddOutputOptions(*command, draft_);
@@ -133,6 +132,7 @@ void Parser::AddJobs() {
     AddServerOptions(*command, draft_);
     if (command == &fetch) AddMeasureOptions(*command, draft_);
     if (command == &watch || command == &fetch) AddProgressOption(*command, draft_);
+    if (command == &jobs || command == &workers) AddWatchOption(*command, draft_);
     AddJsonOption(*command, draft_);
   }
 }

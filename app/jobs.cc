@@ -1,92 +1,25 @@
-// Jobs that live on a server: submit, watch, fetch, cancel, delete, jobs, workers.
+// Jobs that live on a server: submit, watch, fetch, cancel, delete.
 #include <cstdio>
-#include <functional>
-#include <memory>
+#include <string>
 #include <utility>
 
 #include "app/commands.h"
+#include "app/connection.h"
 #include "app/idle_notice.h"
+#include "app/job_text.h"
 #include "app/measure.h"
 #include "app/progress.h"
-#include "app/progress_text.h"
 #include "app/result.h"
 #include "app/scene_files.h"
-#include "app/service.h"
-#include "fmt/format.h"
-#include "nlohmann/json.hpp"
 #include "radiosity/core/error.h"
 #include "radiosity/output/write_outputs.h"
 
 namespace lambert::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-void PrintJson(const Json& json) {
-  std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
-}
-
-// A client whose calls the first Ctrl-C ends; the jobs on the server go on.
-class Connection {
- public:
-  static absl::StatusOr<std::unique_ptr<Connection>> Open(
-      const Options& options, Interrupt& interrupt,
-      std::function<void(const std::string&)> on_notice = [](const std::string& notice) {
-        std::fprintf(stderr, "%s\n", notice.c_str());
-      }) {
-    auto service = OpenService(options, std::move(on_notice));
-    if (!service.ok()) return service.status();
-    return std::unique_ptr<Connection>(new Connection(*std::move(service), interrupt));
-  }
-  ~Connection() { interrupt_.OnFirst(nullptr); }
-  client::Client& client() { return *service_.client; }
-
- private:
-  Connection(Service service, Interrupt& interrupt)
-      : service_(std::move(service)), interrupt_(interrupt) {
-    interrupt_.OnFirst([this] { service_.client->Abort(); });
-  }
-  Service service_;
-  Interrupt& interrupt_;
-};
-
-Json JobJson(const client::Job& job) {
-  const Progress& progress = job.progress;
-  Json json = {
-      {"job", job.name},
-      {"scene", job.scene_name},
-      {"state", client::JobStateName(job.state)},
-      {"stop_reason", StopReasonName(job.stop_reason)},
-      {"reached_goal", job.reached_goal},
-      {"snapshot", job.snapshot_version},
-      {"pass", progress.pass},
-      {"rays", progress.rays},
-      {"seconds", progress.seconds},
-      {"cpu_seconds", progress.cpu_seconds},
-      {"estimated_rms_area",
-       progress.estimated_rms_area < 0 ? Json(nullptr) : Json(progress.estimated_rms_area)},
-      {"wanted_rms_area", progress.wanted_rms_area}};
-  if (!job.error.ok()) json["error"] = std::string(job.error.message());
-  return json;
-}
-
-std::string JobLine(const client::Job& job) {
-  const Progress& progress = job.progress;
-  std::string error =
-      progress.estimated_rms_area < 0 ? "-" : FormatPercent(progress.estimated_rms_area);
-  if (progress.wanted_rms_area > 0) error += " -> " + FormatPercent(progress.wanted_rms_area);
-  return fmt::format("{:<40} {:<10} {:<18} {:>12} {:>13}  {}", job.name,
-                     client::JobStateName(job.state), error,
-                     FormatCount(static_cast<double>(progress.rays), "rays"),
-                     FormatDuration(progress.seconds), job.scene_name);
-}
-
 ExitCode PrintJob(const client::Job& job, const Options& options) {
-  if (options.json) {
-    PrintJson(JobJson(job));
-  } else {
-    std::printf("%s\n", JobLine(job).c_str());
-  }
+  const std::string text = options.json ? JsonText(JobJson(job)) : JobLine(job) + "\n";
+  std::fputs(text.c_str(), stdout);
   return ExitCode::kDone;
 }
 
@@ -204,47 +137,7 @@ absl::StatusOr<ExitCode> RunDelete(const Options& options, Interrupt& interrupt)
   if (!connection.ok()) return connection.status();
   absl::Status status = (*connection)->client().DeleteJob(options.job);
   if (!status.ok()) return status;
-  if (options.json) PrintJson({{"deleted", options.job}});
-  return ExitCode::kDone;
-}
-
-absl::StatusOr<ExitCode> RunJobs(const Options& options, Interrupt& interrupt) {
-  auto connection = Connection::Open(options, interrupt);
-  if (!connection.ok()) return connection.status();
-  auto jobs = (*connection)->client().ListJobs();
-  if (!jobs.ok()) return jobs.status();
-  Json list = Json::array();
-  for (const client::Job& job : *jobs) {
-    if (options.json) {
-      list.push_back(JobJson(job));
-    } else {
-      PrintJob(job, options);
-    }
-  }
-  if (options.json) PrintJson(list);
-  return ExitCode::kDone;
-}
-
-absl::StatusOr<ExitCode> RunWorkers(const Options& options, Interrupt& interrupt) {
-  auto connection = Connection::Open(options, interrupt);
-  if (!connection.ok()) return connection.status();
-  auto workers = (*connection)->client().ListWorkers();
-  if (!workers.ok()) return workers.status();
-  Json list = Json::array();
-  for (const client::Worker& worker : *workers) {
-    if (options.json) {
-      list.push_back({{"worker", worker.name},
-                      {"slots", worker.slots},
-                      {"leases", worker.leases},
-                      {"finished_units", worker.finished_units},
-                      {"silence_s", worker.silence_s}});
-      continue;
-    }
-    std::printf("%-40s %3d slots %5d units held %9lld done  heard of %s ago\n", worker.name.c_str(),
-                worker.slots, worker.leases, static_cast<long long>(worker.finished_units),
-                FormatDuration(worker.silence_s).c_str());
-  }
-  if (options.json) PrintJson(list);
+  if (options.json) std::fputs(JsonText({{"deleted", options.job}}).c_str(), stdout);
   return ExitCode::kDone;
 }
 

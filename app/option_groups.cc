@@ -210,6 +210,11 @@ void AddProgressOption(CLI::App& command, Draft& draft) {
       ->group(kTerminal);
 }
 
+void AddWatchOption(CLI::App& command, Draft& draft) {
+  command.add_flag("--watch", draft.options.watch_list, "keep the list up to date until Ctrl-C")
+      ->group(kTerminal);
+}
+
 void AddJsonOption(CLI::App& command, Draft& draft) {
   command.add_flag("--json", draft.options.json, "results and errors as JSON on standard output")
       ->group(kTerminal);

@@ -24,6 +24,7 @@ void AddServerOptions(CLI::App& command, Draft& draft);   // --server, --reconne
 void AddMeasureOptions(CLI::App& command, Draft& draft);  // --reference, --region
 void AddOutputOptions(CLI::App& command, Draft& draft);   // -o, --outputs
 void AddProgressOption(CLI::App& command, Draft& draft);  // --progress
+void AddWatchOption(CLI::App& command, Draft& draft);     // --watch
 void AddJsonOption(CLI::App& command, Draft& draft);      // --json
 
 // SCENE... and what bake has and bench does not take away; --methods, --seeds, --budgets, ...

@@ -67,7 +67,8 @@ struct Options {
   std::string reference_path;        // a patches.csv to measure the error against; "": none
   std::vector<std::string> regions;  // nodes of the local error: names or glTF indices
 
-  bool json = false;  // results as JSON
+  bool watch_list = false;  // jobs, workers: until Ctrl-C
+  bool json = false;        // results as JSON
   ProgressMode progress = ProgressMode::kAuto;
 };
 

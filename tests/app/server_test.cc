@@ -93,6 +93,38 @@ TEST_F(ServerTest, ACancelledJobKeepsItsResult) {
   ExpectAllFiles("out");
 }
 
+TEST_F(ServerTest, ListsAreKeptUpToDateUntilCtrlC) {
+  StartServer();
+  const std::string lambert = std::string("exec ") + LAMBERT_COMMAND;
+  const auto watch = [&](const std::string& list) {
+    const std::string command = lambert + " " + list + " --watch --server " + address_ + " >&2";
+    return std::make_unique<Process>(std::vector<std::string>{"/bin/sh", "-c", command}, Here());
+  };
+  const auto jobs = watch("jobs"), workers = watch("workers --json");
+  std::string job = Run(There({"submit", "room.glb", "--max-rays", "20000"})).output;
+  job.pop_back();
+  EXPECT_NE(jobs->WaitForError(job), std::string::npos) << jobs->error();
+  EXPECT_NE(workers->WaitForError("[]"), std::string::npos) << workers->error();
+  StartWorker();
+  EXPECT_NE(workers->WaitForError("\"slots\": 1"), std::string::npos) << workers->error();
+  EXPECT_NE(jobs->WaitForError("succeeded"), std::string::npos) << jobs->error();
+  EXPECT_EQ(jobs->error().find('\x1b'), std::string::npos);  // no terminal, no escapes
+  jobs->Signal(SIGINT);
+  EXPECT_EQ(jobs->Wait(), 130);
+  workers->Signal(SIGINT);
+  EXPECT_EQ(workers->Wait(), 130);
+}
+
+TEST_F(ServerTest, OnATerminalAListIsDrawnInPlaceOnAScreenOfItsOwn) {
+  StartServer();
+  const std::string jobs = std::string(LAMBERT_COMMAND) + " workers --watch --server " + address_;
+  Process terminal({"/bin/sh", "-c", "exec script -qec '" + jobs + "' /dev/null >&2"}, Here());
+  EXPECT_NE(terminal.WaitForError("\x1b[?1049h"), std::string::npos);
+  EXPECT_NE(terminal.WaitForError("WORKER"), std::string::npos);
+  const size_t drawn = terminal.error().size();
+  EXPECT_NE(terminal.WaitForError("\x1b[H", drawn), std::string::npos);  // once more
+}
+
 TEST_F(ServerTest, AJobWithoutWorkersSaysSoAndGoesOnOnceOneComes) {
   StartServer();
   const auto bake = Start(There({"bake", "room.glb", "-o", "out", "--max-rays", "20000"}));
