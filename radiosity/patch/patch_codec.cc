@@ -65,6 +65,12 @@ class Reader {
     const uint64_t count = Value<uint64_t>();
     return Has(count, least_size) ? count : 0;
   }
+  // One byte, 0 or 1; else failure.
+  bool Flag() {
+    const uint8_t flag = Value<uint8_t>();
+    ok_ = ok_ && flag <= 1;
+    return flag == 1;
+  }
   bool ok() const { return ok_; }
   bool at_end() const { return ok_ && position_ == bytes_.size(); }
 
@@ -95,7 +101,7 @@ Camera ReadCamera(Reader* reader) {
   Camera camera;
   camera.name = reader->Text();
   camera.world = reader->Value<Transform>();
-  camera.perspective = reader->Value<uint8_t>() != 0;
+  camera.perspective = reader->Flag();
   for (double* x : {&camera.yfov_rad, &camera.half_height_m, &camera.aspect}) {
     *x = reader->Value<double>();
   }

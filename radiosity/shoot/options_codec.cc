@@ -70,6 +70,7 @@ absl::StatusOr<ShootOptions> DecodeShootOptions(const std::string& bytes) {
     }
   }
   if (absl::Status status = options.Validate(); !status.ok()) return status;
+  if (EncodeShootOptions(options) != bytes) return Corrupt();  // "4.0" for 4, or one thing twice
   return options;
 }
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "radiosity/patch/patch_set.h"
 #include "tests/support/scenes.h"
 
@@ -80,6 +82,16 @@ TEST(PatchCodec, ValuesThatWouldHurtLaterAreRefused) {
   patches = Everything();
   patches.cameras[0].world.y.z = std::nan("");
   expect_refused(patches);
+}
+
+TEST(PatchCodec, AFlagIsZeroOrOne) {
+  PatchSet patches = Everything();
+  std::string bytes = EncodePatchSet(patches);
+  patches.cameras[0].perspective = !patches.cameras[0].perspective;
+  const std::string other = EncodePatchSet(patches);
+  const auto flag = std::mismatch(bytes.begin(), bytes.end(), other.begin()).first;
+  *flag = 2;
+  EXPECT_EQ(DecodePatchSet(bytes).status().code(), absl::StatusCode::kDataLoss);
 }
 
 TEST(PatchCodec, CountsThatDoNotFitAllocateNothing) {

@@ -193,6 +193,7 @@ TEST(ShootOptionsCodec, TakesOnlyValidOptionsFromDamagedBytes) {
     const absl::StatusOr<ShootOptions> read = DecodeShootOptions(damaged);
     if (read.ok()) {
       EXPECT_TRUE(read->Validate().ok());
+      EXPECT_EQ(EncodeShootOptions(*read), damaged);
     }
   }
 }
