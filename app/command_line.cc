@@ -30,9 +30,8 @@ constexpr char kExamples[] =
     "  lambert bench room.glb -o out --methods pmcr,phs  error against rays and time\n"
     "Every option can be set by a variable (LAMBERT_MAX_ERROR=0.01) and in ./lambert.toml\n"
     "(max-error = 0.01); a flag wins over a variable, a variable over the file.\n"
-    "Exit: 0 done, 1 failed, 2 usage, 3 bad scene, 4 server not reached, 5 budget spent before "
-    "the\n"
-    "wanted error (result kept), 130 interrupted (result kept).";
+    "Exit: 0 done, 1 failed, 2 usage, 3 bad scene, 4 server not reached, 5 budget spent before\n"
+    "the wanted error (result kept), 130 interrupted (result kept).";
 
 struct Subcommand {
   Command command;
@@ -284,7 +283,9 @@ std::vector<std::string> Parser::Warnings() const {
     WarnOfEffectless({"workers", "threads"},
                      "with --server: work is done by the lambert-workers that serve it", warnings);
   } else {
-    WarnOfEffectless({"reconnect"}, "without --server", warnings);
+    std::vector<std::string> of_servers = {"reconnect"};
+    for (const CredentialOption& option : CredentialOptions()) of_servers.push_back(option.name);
+    WarnOfEffectless(of_servers, "without --server", warnings);
   }
   if (chosen_->command == Command::kSubmit) {
     WarnOfEffectless({"reference", "region"}, "here: give it to lambert fetch", warnings);

@@ -157,6 +157,13 @@ void AddServerOptions(CLI::App& command, Draft& draft) {
       ->option_text("S")
       ->check(NumberFrom(0, 1e6))
       ->group(kPlace);
+  for (const CredentialOption& credential : CredentialOptions()) {
+    command
+        .add_option(std::string("--") + credential.name, draft.options.credentials.*credential.file,
+                    credential.help)
+        ->option_text("FILE")
+        ->group(kPlace);
+  }
 }
 
 void AddMeasureOptions(CLI::App& command, Draft& draft) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "net/credentials.h"
 #include "radiosity/output/write_outputs.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/solve/options.h"
@@ -59,10 +60,11 @@ struct Options {
   SolveOptions solve;
   BenchOptions bench;
 
-  std::string server;       // HOST:PORT; "": the whole service in this process
-  double reconnect_s = 60;  // how long a server that has gone is tried again, seconds
-  int workers = 1;          // in this process, > 0
-  int threads = 0;          // of each of those workers; 0: the processor's, shared out
+  std::string server;           // HOST:PORT; "": the whole service in this process
+  CredentialFiles credentials;  // shown to the server
+  double reconnect_s = 60;      // how long a server that has gone is tried again, seconds
+  int workers = 1;              // in this process, > 0
+  int threads = 0;              // of each of those workers; 0: the processor's, shared out
 
   std::string reference_path;        // a patches.csv to measure the error against; "": none
   std::vector<std::string> regions;  // nodes of the local error: names or glTF indices

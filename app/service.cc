@@ -34,7 +34,7 @@ absl::StatusOr<Service> OpenService(const Options& options,
     service.local = *std::move(local);
     channel = service.local->channel();
   } else {
-    auto connected = client::Connect(options.server, kConnectTimeout);
+    auto connected = client::Connect(options.server, kConnectTimeout, options.credentials);
     if (!connected.ok()) return connected.status();
     channel = *std::move(connected);
     client_options.server = options.server;

@@ -27,27 +27,34 @@ grpc::ChannelArguments Arguments() {
   return arguments;
 }
 
-absl::Status Unreachable(const std::string& server, const std::string& message) {
-  return MakeError(absl::StatusCode::kUnavailable,
-                   {"SERVER_UNREACHABLE", server, message,
-                    "start it with lambert-server --listen " + server +
-                        ", or leave out --server to solve in this process"});
+// A server that does not speak TLS looks like none, and so does one that speaks nothing else.
+absl::Status Unreachable(const std::string& server, const std::string& message, bool has_tls) {
+  return MakeError(
+      absl::StatusCode::kUnavailable,
+      {"SERVER_UNREACHABLE", server, message,
+       "start it with lambert-server --listen " + server +
+           (has_tls ? ", see whether --tls-ca fits it" : ", give --tls-ca where it speaks TLS") +
+           ", or leave out --server to solve in this process"});
 }
 
 }  // namespace
 
 absl::StatusOr<std::shared_ptr<grpc::Channel>> Connect(const std::string& server,
-                                                       std::chrono::duration<double> timeout) {
-  auto channel = grpc::CreateCustomChannel(server, grpc::InsecureChannelCredentials(), Arguments());
+                                                       std::chrono::duration<double> timeout,
+                                                       const CredentialFiles& credentials) {
+  auto made = MakeChannelCredentials(server, credentials);
+  if (!made.ok()) return made.status();
+  const bool has_tls = !credentials.tls_ca.empty();
+  auto channel = grpc::CreateCustomChannel(server, *made, Arguments());
   const auto deadline = std::chrono::system_clock::now() +
                         std::chrono::duration_cast<std::chrono::microseconds>(timeout);
   for (auto state = channel->GetState(true); state != GRPC_CHANNEL_READY;
        state = channel->GetState(true)) {
     if (state == GRPC_CHANNEL_TRANSIENT_FAILURE || state == GRPC_CHANNEL_SHUTDOWN) {
-      return Unreachable(server, "no server answers there");
+      return Unreachable(server, "no server answers there", has_tls);
     }
     if (!channel->WaitForStateChange(state, deadline)) {
-      return Unreachable(server, "no server answered in time");
+      return Unreachable(server, "no server answered in time", has_tls);
     }
   }
   return channel;

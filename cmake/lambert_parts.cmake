@@ -11,8 +11,8 @@ option(LAMBERT_BUILD_BENCH "The benchmarks of shooting, where Google Benchmark i
 set(shooting radiosity/core radiosity/patch radiosity/pyramid radiosity/trace radiosity/exact
   radiosity/shoot)
 set(telling radiosity/core telemetry)
-set(serving ${shooting} radiosity/scene radiosity/solve proto server)
-set(working ${shooting} proto worker)
+set(serving ${shooting} radiosity/scene radiosity/solve proto net server)
+set(working ${shooting} proto net worker)
 set(LAMBERT_ROOMS radiosity/core)
 if(LAMBERT_BUILD_SERVER)
   list(APPEND LAMBERT_ROOMS ${telling} ${serving})

@@ -8,6 +8,6 @@ if [[ ${1:-} == --check ]]; then
   mode=(--dry-run --Werror)
 fi
 # bad_sample is meant to look as it does.
-find radiosity telemetry server worker client local app bench examples tests \
+find radiosity net telemetry server worker client local app bench examples tests \
   -path tests/layering/bad_sample -prune -o \( -name '*.h' -o -name '*.cc' \) -print0 2>/dev/null |
   xargs -0 -r -n 16 -P "$(nproc)" clang-format --style=file "${mode[@]}"

@@ -12,6 +12,7 @@
 #include "server/base/files.h"
 #include "server/coordinator.h"
 #include "server/database/open_stores.h"
+#include "server/door_options.h"
 #include "server/metrics_text.h"
 #include "server/rpc/rpc_server.h"
 #include "telemetry/http_server.h"
@@ -27,6 +28,7 @@ struct Places {
   std::string listen = "127.0.0.1:7400";
   std::string address_file, http;
   StoreOptions stores;
+  DoorOptions doors;
 };
 
 int Fail(const absl::Status& status) {
@@ -72,7 +74,7 @@ int Run(CoordinatorOptions options, Places places, const sigset_t& signals) {
   if (!started.ok()) return Fail(started.status());
   coordinator = *std::move(started);
   absl::StatusOr<std::unique_ptr<RpcServer>> server =
-      RpcServer::Start(coordinator.get(), places.listen);
+      RpcServer::Start(coordinator.get(), places.listen, places.doors);
   if (!server.ok()) return Fail(server.status());
   if (!places.address_file.empty()) {
     const absl::Status told = WriteFileAtomically(places.address_file, (*server)->address() + "\n");
@@ -114,12 +116,18 @@ int main(int argc, char** argv) {
           CLI::CheckedTransformer(std::map<std::string, JournalMode>{{"auto", JournalMode::kAuto},
                                                                      {"every", JournalMode::kEvery},
                                                                      {"off", JournalMode::kOff}}));
+  lambert::server::NewToken new_token;
+  lambert::server::AddDoorOptions(app, places.doors, new_token);
   lambert::TelemetryOptions telemetry;
   lambert::AddTelemetryOptions(app, telemetry);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (!new_token.name.empty()) {
+    const absl::Status printed = lambert::server::PrintNewToken(places.doors.tokens, new_token);
+    return printed.ok() ? 0 : lambert::server::Fail(printed);
   }
   // Before any thread starts, so that every thread inherits the mask and sigwait gets them.
   sigset_t signals;
@@ -130,6 +138,7 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a full store, not the end
   options.log = options.work.log = lambert::StartLog("lambert-server", telemetry.log_format);
+  places.doors.log = [log = options.log](const std::string& line) { log(line); };
   places.http = telemetry.http;
   return lambert::server::Run(options, places, signals);
 }

@@ -36,6 +36,7 @@ sigset_t BlockSignals() {
 // Works until a signal comes. With a `server_file` for the server that it names, also for one that
 // it names later.
 void Work(const std::string& server, const std::string& server_file,
+          const lambert::CredentialFiles& credentials,
           const lambert::worker::WorkerOptions& options, const sigset_t& signals) {
   constexpr timespec kLookAgain = {1, 0};
   std::string address;
@@ -47,8 +48,12 @@ void Work(const std::string& server, const std::string& server_file,
     options.log("the server is at " + named);
     worker.reset();  // two at once would take one another's place
     address = named;
-    worker = std::make_unique<lambert::worker::Worker>(lambert::worker::ConnectToServer(address),
-                                                       options);
+    const auto channel = lambert::worker::ConnectToServer(address, credentials);
+    if (!channel.ok()) {
+      options.on_refused(channel.status());
+      continue;
+    }
+    worker = std::make_unique<lambert::worker::Worker>(*channel, options);
   } while (sigtimedwait(&signals, nullptr, &kLookAgain) < 0);
   options.log("finishing what runs");
 }
@@ -71,6 +76,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--name", options.worker_id, "unique among the server's workers")
       ->capture_default_str();
+  lambert::CredentialFiles credentials;
+  for (const lambert::CredentialOption& option : lambert::CredentialOptions()) {
+    app.add_option(std::string("--") + option.name, credentials.*option.file, option.help)
+        ->envname(option.variable);
+  }
   lambert::TelemetryOptions telemetry;
   lambert::AddTelemetryOptions(app, telemetry);
   try {
@@ -106,7 +116,7 @@ int main(int argc, char** argv) {
     refused = status;
     kill(getpid(), SIGTERM);  // wakes Work
   };
-  Work(server, server_file, options, signals);
+  Work(server, server_file, credentials, options, signals);
   absl::MutexLock lock(&mutex);
   if (refused.ok()) return 0;
   std::fprintf(stderr, "error: %s\n", std::string(refused.message()).c_str());

@@ -74,7 +74,8 @@ bool Session::Open() {
     sequence_ = 1;
     return true;
   }
-  if (absl::IsFailedPrecondition(session.status()) || absl::IsInvalidArgument(session.status())) {
+  if (absl::IsFailedPrecondition(session.status()) || absl::IsInvalidArgument(session.status()) ||
+      absl::IsUnauthenticated(session.status()) || absl::IsPermissionDenied(session.status())) {
     refused_ = true;
     options_.on_refused(session.status());
   } else {

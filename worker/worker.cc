@@ -108,7 +108,10 @@ Worker::Worker(std::shared_ptr<grpc::Channel> channel, const WorkerOptions& opti
     : impl_(std::make_unique<Impl>(std::move(channel), options)) {}
 Worker::~Worker() = default;
 
-std::shared_ptr<grpc::Channel> ConnectToServer(const std::string& address) {
+absl::StatusOr<std::shared_ptr<grpc::Channel>> ConnectToServer(const std::string& address,
+                                                               const CredentialFiles& credentials) {
+  auto made = MakeChannelCredentials(address, credentials);
+  if (!made.ok()) return made.status();
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveMs);
@@ -116,7 +119,7 @@ std::shared_ptr<grpc::Channel> ConnectToServer(const std::string& address) {
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 3000);
   arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
-  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+  return grpc::CreateCustomChannel(address, *made, arguments);
 }
 
 }  // namespace lambert::worker

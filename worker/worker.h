@@ -5,7 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "net/credentials.h"
 #include "radiosity/core/log.h"
 #include "worker/shooter_cache.h"
 #include "worker/worker_counters.h"
@@ -42,7 +43,9 @@ class Worker {
   const std::unique_ptr<Impl> impl_;
 };
 
-// A channel to HOST:PORT with keepalive, and messages large enough for any grant.
-std::shared_ptr<grpc::Channel> ConnectToServer(const std::string& address);
+// A channel to HOST:PORT with keepalive, and messages large enough for any grant. Fails as
+// MakeChannelCredentials does.
+absl::StatusOr<std::shared_ptr<grpc::Channel>> ConnectToServer(
+    const std::string& address, const CredentialFiles& credentials = {});
 
 }  // namespace lambert::worker

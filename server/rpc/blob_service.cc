@@ -104,29 +104,35 @@ class DownloadReactor : public grpc::ServerWriteReactor<v1::DownloadBlobResponse
 
 class BlobService : public v1::BlobService::CallbackService {
  public:
-  explicit BlobService(Coordinator* coordinator) : coordinator_(coordinator) {}
+  BlobService(Coordinator* coordinator, const Doors* doors)
+      : coordinator_(coordinator), doors_(*doors) {}
 
   grpc::ServerUnaryReactor* FindMissingBlobs(grpc::CallbackServerContext* context,
                                              const v1::FindMissingBlobsRequest* request,
                                              v1::FindMissingBlobsResponse* response) override {
-    return Reply(context, FindMissing(*request), response);
+    return Answer(context, doors_, Guests::kClients, response,
+                  [&](const Identity&) { return FindMissing(*request); });
   }
   grpc::ServerReadReactor<v1::UploadBlobRequest>* UploadBlob(
-      grpc::CallbackServerContext*, v1::UploadBlobResponse* response) override {
+      grpc::CallbackServerContext* context, v1::UploadBlobResponse* response) override {
+    const absl::StatusOr<Identity> caller = doors_.Admit(*context, Guests::kClients);
+    if (!caller.ok()) {
+      return new Refused<grpc::ServerReadReactor<v1::UploadBlobRequest>>(caller.status());
+    }
     return new UploadReactor(coordinator_, response);
   }
   grpc::ServerUnaryReactor* GetBlobUpload(grpc::CallbackServerContext* context,
                                           const v1::GetBlobUploadRequest* request,
                                           v1::BlobUpload* response) override {
-    absl::StatusOr<int64_t> committed = coordinator_->uploads().CommittedSize(
-        request->digest().sha256(), request->digest().size_bytes());
-    if (!committed.ok()) return Reply(context, committed.status());
-    response->set_committed_size_bytes(*committed);
-    response->set_complete(coordinator_->blobs().Has(request->digest().sha256()));
-    return Reply(context, absl::OkStatus());
+    return Answer(context, doors_, Guests::kClients, response,
+                  [&](const Identity&) { return FindUpload(request->digest()); });
   }
   grpc::ServerWriteReactor<v1::DownloadBlobResponse>* DownloadBlob(
-      grpc::CallbackServerContext*, const v1::DownloadBlobRequest* request) override {
+      grpc::CallbackServerContext* context, const v1::DownloadBlobRequest* request) override {
+    const absl::StatusOr<Identity> caller = doors_.Admit(*context, Guests::kClientsAndWorkers);
+    if (!caller.ok()) {
+      return new Refused<grpc::ServerWriteReactor<v1::DownloadBlobResponse>>(caller.status());
+    }
     absl::StatusOr<std::shared_ptr<const Blob>> blob =
         FieldInvalid("sha256", "is not a SHA-256", "send 64 lower-case hexadecimal characters");
     if (IsSha256Hex(request->sha256())) blob = coordinator_->blobs().Get(request->sha256());
@@ -134,6 +140,15 @@ class BlobService : public v1::BlobService::CallbackService {
   }
 
  private:
+  absl::StatusOr<v1::BlobUpload> FindUpload(const v1::Digest& digest) {
+    absl::StatusOr<int64_t> committed =
+        coordinator_->uploads().CommittedSize(digest.sha256(), digest.size_bytes());
+    if (!committed.ok()) return committed.status();
+    v1::BlobUpload upload;
+    upload.set_committed_size_bytes(*committed);
+    upload.set_complete(coordinator_->blobs().Has(digest.sha256()));
+    return upload;
+  }
   absl::StatusOr<v1::FindMissingBlobsResponse> FindMissing(
       const v1::FindMissingBlobsRequest& request) {
     if (request.digests_size() > kMaxDigests) {
@@ -153,12 +168,13 @@ class BlobService : public v1::BlobService::CallbackService {
   }
 
   Coordinator* const coordinator_;
+  const Doors& doors_;
 };
 
 }  // namespace
 
-std::unique_ptr<grpc::Service> MakeBlobService(Coordinator* coordinator) {
-  return std::make_unique<BlobService>(coordinator);
+std::unique_ptr<grpc::Service> MakeBlobService(Coordinator* coordinator, const Doors* doors) {
+  return std::make_unique<BlobService>(coordinator, doors);
 }
 
 }  // namespace lambert::server

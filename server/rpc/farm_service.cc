@@ -15,11 +15,18 @@ namespace {
 
 class FarmService : public v1::FarmService::CallbackService {
  public:
-  explicit FarmService(Coordinator* coordinator) : coordinator_(coordinator) {}
+  FarmService(Coordinator* coordinator, const Doors* doors)
+      : coordinator_(coordinator), doors_(*doors) {}
 
   grpc::ServerUnaryReactor* ListWorkers(grpc::CallbackServerContext* context,
                                         const v1::ListWorkersRequest* request,
                                         v1::ListWorkersResponse* response) override {
+    return Answer(context, doors_, Guests::kClients, response,
+                  [&](const Identity&) { return List(*request); });
+  }
+
+ private:
+  absl::StatusOr<v1::ListWorkersResponse> List(const v1::ListWorkersRequest& request) {
     std::map<std::string, v1::Worker> workers;
     for (const WorkerInfo& info : coordinator_->work().ListWorkers()) {
       v1::Worker worker;
@@ -31,21 +38,22 @@ class FarmService : public v1::FarmService::CallbackService {
       workers[worker.name()] = std::move(worker);
     }
     absl::StatusOr<Page<v1::Worker>> page =
-        TakePage(workers, request->page_size(), request->page_token());
-    if (!page.ok()) return Reply(context, page.status());
-    for (v1::Worker& worker : page->items) *response->add_workers() = std::move(worker);
-    response->set_next_page_token(page->next_page_token);
-    return Reply(context, absl::OkStatus());
+        TakePage(workers, request.page_size(), request.page_token());
+    if (!page.ok()) return page.status();
+    v1::ListWorkersResponse response;
+    for (v1::Worker& worker : page->items) *response.add_workers() = std::move(worker);
+    response.set_next_page_token(page->next_page_token);
+    return response;
   }
 
- private:
   Coordinator* const coordinator_;
+  const Doors& doors_;
 };
 
 }  // namespace
 
-std::unique_ptr<grpc::Service> MakeFarmService(Coordinator* coordinator) {
-  return std::make_unique<FarmService>(coordinator);
+std::unique_ptr<grpc::Service> MakeFarmService(Coordinator* coordinator, const Doors* doors) {
+  return std::make_unique<FarmService>(coordinator, doors);
 }
 
 }  // namespace lambert::server

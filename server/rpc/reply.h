@@ -8,6 +8,7 @@
 #include "absl/status/statusor.h"
 #include "google/protobuf/empty.pb.h"
 #include "server/base/status_proto.h"
+#include "server/doors/doors.h"
 
 namespace lambert::server {
 
@@ -29,5 +30,29 @@ inline grpc::ServerUnaryReactor* Reply(grpc::CallbackServerContext* context,
   reactor->Finish(ToGrpc(status));
   return reactor;
 }
+
+// A unary handler for `guests`: what `call` makes of who calls, a StatusOr<T>.
+template <typename T, typename Call>
+grpc::ServerUnaryReactor* Answer(grpc::CallbackServerContext* context, const Doors& doors,
+                                 Guests guests, T* response, const Call& call) {
+  const absl::StatusOr<Identity> caller = doors.Admit(*context, guests);
+  return Reply(context, caller.ok() ? absl::StatusOr<T>(call(*caller)) : caller.status(), response);
+}
+
+// The same for a response without content: `call` returns a Status.
+template <typename Call>
+grpc::ServerUnaryReactor* Answer(grpc::CallbackServerContext* context, const Doors& doors,
+                                 Guests guests, const Call& call) {
+  const absl::StatusOr<Identity> caller = doors.Admit(*context, guests);
+  return Reply(context, caller.ok() ? call(*caller) : caller.status());
+}
+
+// A stream that ends before it began.
+template <typename Reactor>
+class Refused : public Reactor {
+ public:
+  explicit Refused(const absl::Status& status) { this->Finish(ToGrpc(status)); }
+  void OnDone() override { delete this; }
+};
 
 }  // namespace lambert::server

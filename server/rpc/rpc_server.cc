@@ -36,10 +36,11 @@ void SetKeepalive(grpc::ServerBuilder& builder) {
 
 class RpcServerImpl : public RpcServer {
  public:
-  explicit RpcServerImpl(Coordinator* coordinator) : coordinator_(coordinator) {
+  RpcServerImpl(Coordinator* coordinator, std::unique_ptr<const Doors> doors)
+      : coordinator_(coordinator), doors_(std::move(doors)) {
     for (auto make : {MakeBlobService, MakeSceneService, MakeSolveJobService, MakeSnapshotService,
                       MakeFarmService, MakeWorkerService}) {
-      services_.push_back(make(coordinator));
+      services_.push_back(make(coordinator, doors_.get()));
     }
   }
   ~RpcServerImpl() override {
@@ -55,7 +56,7 @@ class RpcServerImpl : public RpcServer {
     SetKeepalive(builder);
     int port = 0;
     if (!listen.empty()) {
-      builder.AddListeningPort(listen, grpc::InsecureServerCredentials(), &port);
+      builder.AddListeningPort(listen, doors_->credentials(), &port);
     }
     for (auto& service : services_) builder.RegisterService(service.get());
     server_ = builder.BuildAndStart();
@@ -77,6 +78,7 @@ class RpcServerImpl : public RpcServer {
 
  private:
   Coordinator* const coordinator_;
+  const std::unique_ptr<const Doors> doors_;
   std::vector<std::unique_ptr<grpc::Service>> services_;
   std::unique_ptr<grpc::Server> server_;
   std::string address_;
@@ -85,12 +87,15 @@ class RpcServerImpl : public RpcServer {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<RpcServer>> RpcServer::Start(Coordinator* coordinator,
-                                                            const std::string& listen) {
+                                                            const std::string& listen,
+                                                            const DoorOptions& door_options) {
+  absl::StatusOr<std::unique_ptr<Doors>> doors = Doors::Open(door_options, listen);
+  if (!doors.ok()) return doors.status();
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   // Links the descriptor of the health service, which reflection shows.
   grpc::health::v1::HealthCheckRequest::descriptor();
-  auto server = std::make_unique<RpcServerImpl>(coordinator);
+  auto server = std::make_unique<RpcServerImpl>(coordinator, *std::move(doors));
   if (absl::Status status = server->Listen(listen); !status.ok()) return status;
   return server;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "server/doors/doors.h"
 
 namespace grpc {
 class Channel;
@@ -18,9 +19,11 @@ class Coordinator;
 class RpcServer {
  public:
   // `listen`: HOST:PORT, port 0 for any; "" for in-process channels only. UNAVAILABLE
-  // (ADDRESS_IN_USE) where it cannot be had. The coordinator has to outlive the server.
+  // (ADDRESS_IN_USE) where it cannot be had; errors of Doors::Open. The coordinator has to outlive
+  // the server. Health and reflection answer everybody: they tell nothing of anybody's.
   static absl::StatusOr<std::unique_ptr<RpcServer>> Start(Coordinator* coordinator,
-                                                          const std::string& listen);
+                                                          const std::string& listen,
+                                                          const DoorOptions& doors = {});
   // Shuts the coordinator down, ends all calls, and waits for them.
   virtual ~RpcServer() = default;
 

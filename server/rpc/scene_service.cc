@@ -11,11 +11,14 @@ namespace {
 
 class SceneService : public v1::SceneService::CallbackService {
  public:
-  explicit SceneService(Coordinator* coordinator) : coordinator_(coordinator) {}
+  SceneService(Coordinator* coordinator, const Doors* doors)
+      : coordinator_(coordinator), doors_(*doors) {}
 
   grpc::ServerUnaryReactor* CreateScene(grpc::CallbackServerContext* context,
                                         const v1::CreateSceneRequest* request,
                                         v1::Scene* response) override {
+    const absl::StatusOr<Identity> caller = doors_.Admit(*context, Guests::kClients);
+    if (!caller.ok()) return Reply(context, caller.status());
     grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
     coordinator_->pool().Run([this, reactor, request, response] {
       absl::StatusOr<v1::Scene> scene = coordinator_->scenes().Create(*request);
@@ -27,32 +30,41 @@ class SceneService : public v1::SceneService::CallbackService {
   grpc::ServerUnaryReactor* GetScene(grpc::CallbackServerContext* context,
                                      const v1::GetSceneRequest* request,
                                      v1::Scene* response) override {
-    return Reply(context, coordinator_->scenes().Get(request->name()), response);
+    return Answer(context, doors_, Guests::kClients, response,
+                  [&](const Identity&) { return coordinator_->scenes().Get(request->name()); });
   }
   grpc::ServerUnaryReactor* ListScenes(grpc::CallbackServerContext* context,
                                        const v1::ListScenesRequest* request,
                                        v1::ListScenesResponse* response) override {
-    absl::StatusOr<Page<v1::Scene>> page =
-        coordinator_->scenes().List(request->page_size(), request->page_token());
-    if (!page.ok()) return Reply(context, page.status());
-    for (v1::Scene& scene : page->items) *response->add_scenes() = std::move(scene);
-    response->set_next_page_token(page->next_page_token);
-    return Reply(context, absl::OkStatus());
+    return Answer(context, doors_, Guests::kClients, response,
+                  [&](const Identity&) { return List(*request); });
   }
   grpc::ServerUnaryReactor* DeleteScene(grpc::CallbackServerContext* context,
                                         const v1::DeleteSceneRequest* request,
                                         google::protobuf::Empty*) override {
-    return Reply(context, coordinator_->DeleteScene(request->name()));
+    return Answer(context, doors_, Guests::kClients,
+                  [&](const Identity&) { return coordinator_->DeleteScene(request->name()); });
   }
 
  private:
+  absl::StatusOr<v1::ListScenesResponse> List(const v1::ListScenesRequest& request) {
+    absl::StatusOr<Page<v1::Scene>> page =
+        coordinator_->scenes().List(request.page_size(), request.page_token());
+    if (!page.ok()) return page.status();
+    v1::ListScenesResponse response;
+    for (v1::Scene& scene : page->items) *response.add_scenes() = std::move(scene);
+    response.set_next_page_token(page->next_page_token);
+    return response;
+  }
+
   Coordinator* const coordinator_;
+  const Doors& doors_;
 };
 
 }  // namespace
 
-std::unique_ptr<grpc::Service> MakeSceneService(Coordinator* coordinator) {
-  return std::make_unique<SceneService>(coordinator);
+std::unique_ptr<grpc::Service> MakeSceneService(Coordinator* coordinator, const Doors* doors) {
+  return std::make_unique<SceneService>(coordinator, doors);
 }
 
 }  // namespace lambert::server

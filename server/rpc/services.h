@@ -1,5 +1,5 @@
-// The gRPC services of a coordinator, each in its own file. A handler decodes, makes one call,
-// encodes.
+// The gRPC services of a coordinator, each in its own file. A handler asks the doors who calls,
+// decodes, makes one call, encodes.
 #pragma once
 
 #include <grpcpp/impl/service_type.h>
@@ -9,13 +9,14 @@
 namespace lambert::server {
 
 class Coordinator;
+class Doors;
 
-// The coordinator has to outlive the service; every service is thread safe.
-std::unique_ptr<grpc::Service> MakeBlobService(Coordinator* coordinator);
-std::unique_ptr<grpc::Service> MakeSceneService(Coordinator* coordinator);
-std::unique_ptr<grpc::Service> MakeSolveJobService(Coordinator* coordinator);
-std::unique_ptr<grpc::Service> MakeSnapshotService(Coordinator* coordinator);
-std::unique_ptr<grpc::Service> MakeFarmService(Coordinator* coordinator);
-std::unique_ptr<grpc::Service> MakeWorkerService(Coordinator* coordinator);
+// Coordinator and doors have to outlive the service; every service is thread safe.
+std::unique_ptr<grpc::Service> MakeBlobService(Coordinator* coordinator, const Doors* doors);
+std::unique_ptr<grpc::Service> MakeSceneService(Coordinator* coordinator, const Doors* doors);
+std::unique_ptr<grpc::Service> MakeSolveJobService(Coordinator* coordinator, const Doors* doors);
+std::unique_ptr<grpc::Service> MakeSnapshotService(Coordinator* coordinator, const Doors* doors);
+std::unique_ptr<grpc::Service> MakeFarmService(Coordinator* coordinator, const Doors* doors);
+std::unique_ptr<grpc::Service> MakeWorkerService(Coordinator* coordinator, const Doors* doors);
 
 }  // namespace lambert::server

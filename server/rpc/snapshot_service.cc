@@ -99,22 +99,34 @@ class WatchReactor : public grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>
 
 class SnapshotService : public v1::SnapshotService::CallbackService {
  public:
-  explicit SnapshotService(Coordinator* coordinator) : coordinator_(coordinator) {}
+  SnapshotService(Coordinator* coordinator, const Doors* doors)
+      : coordinator_(coordinator), doors_(*doors) {}
 
   grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>* WatchSnapshots(
-      grpc::CallbackServerContext*, const v1::WatchSnapshotsRequest* request) override {
+      grpc::CallbackServerContext* context, const v1::WatchSnapshotsRequest* request) override {
+    const absl::StatusOr<Identity> caller = doors_.Admit(*context, Guests::kClients);
+    if (!caller.ok()) {
+      return new Refused<grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>>(caller.status());
+    }
     return WatchReactor::Start(coordinator_, *request);
   }
   grpc::ServerUnaryReactor* GetSnapshot(grpc::CallbackServerContext* context,
                                         const v1::GetSnapshotRequest* request,
                                         v1::Snapshot* response) override {
-    return Reply(context, Find(request->name()), response);
+    return Answer(context, doors_, Guests::kClients, response,
+                  [&](const Identity&) { return Find(request->name()); });
   }
   grpc::ServerUnaryReactor* ListSnapshots(grpc::CallbackServerContext* context,
                                           const v1::ListSnapshotsRequest* request,
                                           v1::ListSnapshotsResponse* response) override {
-    absl::StatusOr<std::shared_ptr<Job>> job = coordinator_->jobs().Find(request->parent());
-    if (!job.ok()) return Reply(context, job.status());
+    return Answer(context, doors_, Guests::kClients, response,
+                  [&](const Identity&) { return List(*request); });
+  }
+
+ private:
+  absl::StatusOr<v1::ListSnapshotsResponse> List(const v1::ListSnapshotsRequest& request) {
+    absl::StatusOr<std::shared_ptr<Job>> job = coordinator_->jobs().Find(request.parent());
+    if (!job.ok()) return job.status();
     std::map<std::string, v1::Snapshot> by_version;
     for (v1::Snapshot& snapshot : (*job)->snapshots()) {
       // Leading zeros, so that keys sort like numbers.
@@ -122,14 +134,13 @@ class SnapshotService : public v1::SnapshotService::CallbackService {
       by_version[std::string(20 - version.size(), '0') + version] = std::move(snapshot);
     }
     absl::StatusOr<Page<v1::Snapshot>> page =
-        TakePage(by_version, request->page_size(), request->page_token());
-    if (!page.ok()) return Reply(context, page.status());
-    for (v1::Snapshot& snapshot : page->items) *response->add_snapshots() = std::move(snapshot);
-    response->set_next_page_token(page->next_page_token);
-    return Reply(context, absl::OkStatus());
+        TakePage(by_version, request.page_size(), request.page_token());
+    if (!page.ok()) return page.status();
+    v1::ListSnapshotsResponse response;
+    for (v1::Snapshot& snapshot : page->items) *response.add_snapshots() = std::move(snapshot);
+    response.set_next_page_token(page->next_page_token);
+    return response;
   }
-
- private:
   absl::StatusOr<v1::Snapshot> Find(const std::string& name) {
     const size_t end = name.find(kSnapshots);
     if (end == std::string::npos) return SnapshotNotFound(name);
@@ -146,12 +157,13 @@ class SnapshotService : public v1::SnapshotService::CallbackService {
   }
 
   Coordinator* const coordinator_;
+  const Doors& doors_;
 };
 
 }  // namespace
 
-std::unique_ptr<grpc::Service> MakeSnapshotService(Coordinator* coordinator) {
-  return std::make_unique<SnapshotService>(coordinator);
+std::unique_ptr<grpc::Service> MakeSnapshotService(Coordinator* coordinator, const Doors* doors) {
+  return std::make_unique<SnapshotService>(coordinator, doors);
 }
 
 }  // namespace lambert::server

@@ -11,11 +11,14 @@ namespace {
 
 class SolveJobService : public v1::SolveJobService::CallbackService {
  public:
-  explicit SolveJobService(Coordinator* coordinator) : coordinator_(coordinator) {}
+  SolveJobService(Coordinator* coordinator, const Doors* doors)
+      : coordinator_(coordinator), doors_(*doors) {}
 
   grpc::ServerUnaryReactor* PlanScene(grpc::CallbackServerContext* context,
                                       const v1::PlanSceneRequest* request,
                                       v1::PlanSceneResponse* response) override {
+    const absl::StatusOr<Identity> caller = doors_.Admit(*context, Guests::kClients);
+    if (!caller.ok()) return Reply(context, caller.status());
     grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
     coordinator_->pool().Run([this, reactor, request, response] {
       absl::StatusOr<v1::PlanSceneResponse> plan = coordinator_->PlanScene(*request);
@@ -27,45 +30,58 @@ class SolveJobService : public v1::SolveJobService::CallbackService {
   grpc::ServerUnaryReactor* CreateSolveJob(grpc::CallbackServerContext* context,
                                            const v1::CreateSolveJobRequest* request,
                                            v1::SolveJob* response) override {
-    return Reply(context, coordinator_->CreateJob(*request), response);
+    return Answer(context, doors_, Guests::kClients, response,
+                  [&](const Identity&) { return coordinator_->CreateJob(*request); });
   }
   grpc::ServerUnaryReactor* GetSolveJob(grpc::CallbackServerContext* context,
                                         const v1::GetSolveJobRequest* request,
                                         v1::SolveJob* response) override {
-    absl::StatusOr<std::shared_ptr<Job>> job = coordinator_->jobs().Find(request->name());
-    if (!job.ok()) return Reply(context, job.status());
-    *response = (*job)->Get();
-    return Reply(context, absl::OkStatus());
+    return Answer(context, doors_, Guests::kClients, response,
+                  [&](const Identity&) { return Get(request->name()); });
   }
   grpc::ServerUnaryReactor* ListSolveJobs(grpc::CallbackServerContext* context,
                                           const v1::ListSolveJobsRequest* request,
                                           v1::ListSolveJobsResponse* response) override {
-    absl::StatusOr<Page<std::shared_ptr<Job>>> page =
-        coordinator_->jobs().List(request->page_size(), request->page_token());
-    if (!page.ok()) return Reply(context, page.status());
-    for (const std::shared_ptr<Job>& job : page->items) *response->add_solve_jobs() = job->Get();
-    response->set_next_page_token(page->next_page_token);
-    return Reply(context, absl::OkStatus());
+    return Answer(context, doors_, Guests::kClients, response,
+                  [&](const Identity&) { return List(*request); });
   }
   grpc::ServerUnaryReactor* CancelSolveJob(grpc::CallbackServerContext* context,
                                            const v1::CancelSolveJobRequest* request,
                                            v1::SolveJob* response) override {
-    return Reply(context, coordinator_->CancelJob(request->name()), response);
+    return Answer(context, doors_, Guests::kClients, response,
+                  [&](const Identity&) { return coordinator_->CancelJob(request->name()); });
   }
   grpc::ServerUnaryReactor* DeleteSolveJob(grpc::CallbackServerContext* context,
                                            const v1::DeleteSolveJobRequest* request,
                                            google::protobuf::Empty*) override {
-    return Reply(context, coordinator_->jobs().Delete(request->name()));
+    return Answer(context, doors_, Guests::kClients,
+                  [&](const Identity&) { return coordinator_->jobs().Delete(request->name()); });
   }
 
  private:
+  absl::StatusOr<v1::SolveJob> Get(const std::string& name) {
+    absl::StatusOr<std::shared_ptr<Job>> job = coordinator_->jobs().Find(name);
+    if (!job.ok()) return job.status();
+    return (*job)->Get();
+  }
+  absl::StatusOr<v1::ListSolveJobsResponse> List(const v1::ListSolveJobsRequest& request) {
+    absl::StatusOr<Page<std::shared_ptr<Job>>> page =
+        coordinator_->jobs().List(request.page_size(), request.page_token());
+    if (!page.ok()) return page.status();
+    v1::ListSolveJobsResponse response;
+    for (const std::shared_ptr<Job>& job : page->items) *response.add_solve_jobs() = job->Get();
+    response.set_next_page_token(page->next_page_token);
+    return response;
+  }
+
   Coordinator* const coordinator_;
+  const Doors& doors_;
 };
 
 }  // namespace
 
-std::unique_ptr<grpc::Service> MakeSolveJobService(Coordinator* coordinator) {
-  return std::make_unique<SolveJobService>(coordinator);
+std::unique_ptr<grpc::Service> MakeSolveJobService(Coordinator* coordinator, const Doors* doors) {
+  return std::make_unique<SolveJobService>(coordinator, doors);
 }
 
 }  // namespace lambert::server

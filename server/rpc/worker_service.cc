@@ -145,43 +145,58 @@ class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest
 
 class WorkerService : public w1::WorkerService::CallbackService {
  public:
-  explicit WorkerService(WorkTable* work) : work_(work) {}
+  WorkerService(WorkTable* work, const Doors* doors) : work_(work), doors_(*doors) {}
 
   grpc::ServerUnaryReactor* CreateWorkerSession(grpc::CallbackServerContext* context,
                                                 const w1::CreateWorkerSessionRequest* request,
                                                 w1::WorkerSession* response) override {
-    absl::StatusOr<std::string> name =
-        work_->OpenSession(request->worker_id(), request->slot_count(), request->unit_version());
-    if (!name.ok()) return Reply(context, name.status());
-    response->set_name(*name);
-    *response->mutable_sync_interval() = ToProto(work_->options().sync_interval);
-    *response->mutable_expire_duration() = ToProto(work_->options().session_expiry);
-    return Reply(context, absl::OkStatus());
+    return Answer(context, doors_, Guests::kWorkers, response,
+                  [&](const Identity&) { return OpenSession(*request); });
   }
-  grpc::ServerUnaryReactor* SyncWorkerSession(grpc::CallbackServerContext*,
+  grpc::ServerUnaryReactor* SyncWorkerSession(grpc::CallbackServerContext* context,
                                               const w1::SyncWorkerSessionRequest* request,
                                               w1::SyncWorkerSessionResponse* response) override {
+    const absl::StatusOr<Identity> caller = doors_.Admit(*context, Guests::kWorkers);
+    if (!caller.ok()) return Reply(context, caller.status());
     return new SyncReactor(work_, *request, response);
   }
   grpc::ServerReadReactor<w1::SubmitUnitResultRequest>* SubmitUnitResult(
-      grpc::CallbackServerContext*, w1::SubmitUnitResultResponse* response) override {
+      grpc::CallbackServerContext* context, w1::SubmitUnitResultResponse* response) override {
+    const absl::StatusOr<Identity> caller = doors_.Admit(*context, Guests::kWorkers);
+    if (!caller.ok()) {
+      return new Refused<grpc::ServerReadReactor<w1::SubmitUnitResultRequest>>(caller.status());
+    }
     return new SubmitReactor(work_, response);
   }
   grpc::ServerUnaryReactor* DeleteWorkerSession(grpc::CallbackServerContext* context,
                                                 const w1::DeleteWorkerSessionRequest* request,
                                                 google::protobuf::Empty*) override {
-    work_->CloseSession(request->name());
-    return Reply(context, absl::OkStatus());
+    return Answer(context, doors_, Guests::kWorkers, [&](const Identity&) {
+      work_->CloseSession(request->name());
+      return absl::OkStatus();
+    });
   }
 
  private:
+  absl::StatusOr<w1::WorkerSession> OpenSession(const w1::CreateWorkerSessionRequest& request) {
+    absl::StatusOr<std::string> name =
+        work_->OpenSession(request.worker_id(), request.slot_count(), request.unit_version());
+    if (!name.ok()) return name.status();
+    w1::WorkerSession session;
+    session.set_name(*name);
+    *session.mutable_sync_interval() = ToProto(work_->options().sync_interval);
+    *session.mutable_expire_duration() = ToProto(work_->options().session_expiry);
+    return session;
+  }
+
   WorkTable* const work_;
+  const Doors& doors_;
 };
 
 }  // namespace
 
-std::unique_ptr<grpc::Service> MakeWorkerService(Coordinator* coordinator) {
-  return std::make_unique<WorkerService>(&coordinator->work());
+std::unique_ptr<grpc::Service> MakeWorkerService(Coordinator* coordinator, const Doors* doors) {
+  return std::make_unique<WorkerService>(&coordinator->work(), doors);
 }
 
 }  // namespace lambert::server

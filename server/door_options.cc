@@ -1,0 +1,35 @@
+#include "server/door_options.h"
+
+#include <cstdio>
+
+namespace lambert::server {
+
+void AddDoorOptions(CLI::App& app, DoorOptions& doors, NewToken& wanted) {
+  app.add_option("--tls-cert", doors.tls_cert, "PEM file of the server's certificate: TLS only");
+  app.add_option("--tls-key", doors.tls_key, "PEM file of that certificate's key");
+  app.add_option("--tls-client-ca", doors.tls_client_ca,
+                 "PEM file of who signs certificates of clients and workers");
+  CLI::Option* tokens =
+      app.add_option("--tokens", doors.tokens, "file of who may come with which token");
+  app.add_flag("--insecure", doors.insecure,
+               "listen on any address, also where anybody may come or tokens can be read");
+  CLI::Option* new_token =
+      app.add_option("--new-token", wanted.name,
+                     "add a token of this name to the file of --tokens, print it, and end")
+          ->needs(tokens);
+  app.add_option("--role", wanted.role, "of the new token: client, worker or admin")
+      ->check(CLI::IsMember({"client", "worker", "admin"}))
+      ->needs(new_token)
+      ->capture_default_str();
+}
+
+absl::Status PrintNewToken(const std::string& file, const NewToken& wanted) {
+  Identity identity{wanted.name};
+  ParseRole(wanted.role, &identity.role);
+  absl::StatusOr<std::string> token = AddToken(file, identity);
+  if (!token.ok()) return token.status();
+  std::printf("%s\n", token->c_str());
+  return absl::OkStatus();
+}
+
+}  // namespace lambert::server

@@ -1,0 +1,23 @@
+// The options of lambert-server that say who may come in.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "absl/status/status.h"
+#include "server/doors/doors.h"
+
+namespace lambert::server {
+
+// What --new-token asks for, beside the file of --tokens.
+struct NewToken {
+  std::string name;  // "": no new token is asked for
+  std::string role = "client";
+};
+
+void AddDoorOptions(CLI::App& app, DoorOptions& doors, NewToken& wanted);
+
+// Adds a token to the file and prints it on standard output. Fails as AddToken does.
+absl::Status PrintNewToken(const std::string& file, const NewToken& wanted);
+
+}  // namespace lambert::server
