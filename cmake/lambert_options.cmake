@@ -15,10 +15,11 @@ target_include_directories(lambert_flags INTERFACE ${PROJECT_SOURCE_DIR})
 # The same bits on every machine: no contraction to FMA, no fast-math; AVX2 is the pinned baseline.
 target_compile_options(lambert_flags INTERFACE
   -march=x86-64-v3 -ffp-contract=off -fno-math-errno -Wall -Wextra -Wno-unused-parameter
-  -Wno-restrict  # gcc 12 sees one in every "text" + std::string (GCC bug 105329)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # gcc 12 sees one in every "text" + std::string (GCC bug 105329)
   $<$<BOOL:${LAMBERT_WERROR}>:-Werror>)
 if(LAMBERT_SANITIZE)
-  target_compile_options(lambert_flags INTERFACE -fsanitize=${LAMBERT_SANITIZE} -fno-omit-frame-pointer)
+  target_compile_options(lambert_flags INTERFACE -fsanitize=${LAMBERT_SANITIZE}
+    -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(lambert_flags INTERFACE -fsanitize=${LAMBERT_SANITIZE})
 endif()
 
