@@ -31,9 +31,21 @@ constexpr int kCellBits = 8, kPatchBits = 31;
 // Requires: -1 <= x <= 1, but for rounding.
 uint64_t CellOf(double x) { return static_cast<uint64_t>(x * kCells + kMiddleCell); }
 
-// Length(a) is safe at any size and slow; in diagonals sizes are moderate.
+Vec3 TwiceTheArea(const Corners& corners) {
+  return Cross(corners[1] - corners[0], corners[2] - corners[0]);
+}
+
+// What shares more than the least width has a larger area than this, as has the larger of two that
+// share it. Smaller ones may have no normal at all.
+bool IsTooSmall(const Corners& corners) {
+  const Vec3 normal = TwiceTheArea(corners);
+  constexpr double kArea = kLeastWidth * kLeastWidth;
+  return !(Dot(normal, normal) > kArea * kArea);
+}
+
+// Length(a) is safe at any size and slow; in diagonals sizes are moderate. Requires: not too small.
 Vec3 UnitNormal(const Corners& corners) {
-  const Vec3 normal = Cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const Vec3 normal = TwiceTheArea(corners);
   return normal / std::sqrt(Dot(normal, normal));
 }
 
@@ -81,6 +93,7 @@ std::vector<uint64_t> SortByPlane(const PatchSet& patches, double per_m) {
   entries.reserve(patches.corners.size());
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     const Corners corners = InDiagonals(patches.corners[i], per_m);
+    if (IsTooSmall(corners)) continue;
     const Vec3 normal = UnitNormal(corners);
     std::array<uint64_t, 16> cells = {0};
     size_t count = 1;

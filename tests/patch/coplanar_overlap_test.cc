@@ -62,6 +62,11 @@ TEST(CoplanarOverlap, NeighboursAndNearPlanesMeetNothing) {
 }
 
 // Corners are rounded to float32 after they are turned, as exporters do.
+TEST(CoplanarOverlap, WhatIsTooSmallForANormalMeetsNothing) {
+  EXPECT_EQ(CountIn(Floor().Quad({0, 0, 0}, {1e95, 0, 0}, {0, 1e95, 0}, kGray)), 0);
+  EXPECT_EQ(CountIn(Floor().Quad({0, 0, 1e60}, {1e60, 0, 0}, {0, 1e60, 0}, kGray)), 0);
+}
+
 TEST(CoplanarOverlap, RugsAreFoundAndNeighboursAreNotHoweverTheSceneIsTurnedAndScaled) {
   std::mt19937 random(2);
   std::normal_distribution<double> gauss;
