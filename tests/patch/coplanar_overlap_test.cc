@@ -61,12 +61,13 @@ TEST(CoplanarOverlap, NeighboursAndNearPlanesMeetNothing) {
   }
 }
 
-// Corners are rounded to float32 after they are turned, as exporters do.
 TEST(CoplanarOverlap, WhatIsTooSmallForANormalMeetsNothing) {
-  EXPECT_EQ(CountIn(Floor().Quad({0, 0, 0}, {1e95, 0, 0}, {0, 1e95, 0}, kGray)), 0);
-  EXPECT_EQ(CountIn(Floor().Quad({0, 0, 1e60}, {1e60, 0, 0}, {0, 1e60, 0}, kGray)), 0);
+  const SceneMaker tiny = SceneMaker().Quad({}, {1e-20, 0, 0}, {0, 1e-20, 0}, kGray);
+  EXPECT_EQ(CountIn(SceneMaker(tiny).Quad({0, 0, 0}, {1e65, 0, 0}, {0, 1e65, 0}, kGray)), 0);
+  EXPECT_EQ(CountIn(SceneMaker(tiny).Quad({0, 0, 1}, {1e65, 0, 0}, {0, 1e65, 0}, kGray)), 0);
 }
 
+// Corners are rounded to float32 after they are turned, as exporters do.
 TEST(CoplanarOverlap, RugsAreFoundAndNeighboursAreNotHoweverTheSceneIsTurnedAndScaled) {
   std::mt19937 random(2);
   std::normal_distribution<double> gauss;
