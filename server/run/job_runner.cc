@@ -75,7 +75,11 @@ absl::Status JobRunner::Solve(Job& job, Journal& journal) {
                            [&](const std::string& line) {
                              parts_.log({line, {.job = job.name()}});
                            });
-  return RunPasses(job, journal, solver, executor);
+  const absl::Status status = RunPasses(job, journal, solver, executor);
+  if (const std::string summary = executor.Summary(); !summary.empty()) {
+    parts_.log({summary, {.job = job.name()}});
+  }
+  return status;
 }
 
 absl::StatusOr<std::shared_ptr<const PatchSet>> JobRunner::PreparePatches(

@@ -49,6 +49,7 @@ absl::StatusOr<UnitResult> JournalExecutor::RunStep(const std::vector<WorkUnit>&
     return *std::move(kept);
   }
   TellResumed(units.front());
+  ++shot_;
   const TimePoint began = clock_();
   absl::StatusOr<UnitResult> result = inner_->RunStep(units);
   if (!result.ok()) return result.status();
@@ -56,6 +57,12 @@ absl::StatusOr<UnitResult> JournalExecutor::RunStep(const std::vector<WorkUnit>&
     return kept;
   }
   return result;
+}
+
+std::string JournalExecutor::Summary() const {
+  if (!journal_->keeps()) return "";
+  return "kept " + std::to_string(kept_) + " of " + std::to_string(shot_) + " steps in " +
+         std::to_string(keeping_seconds_) + " s";
 }
 
 void JournalExecutor::TellResumed(const WorkUnit& unit) {
@@ -76,7 +83,10 @@ absl::Status JournalExecutor::Keep(const std::vector<WorkUnit>& units, const Uni
   }
   const TimePoint began = clock_();
   const absl::Status kept = journal_->Add(units, result);
-  cost_.Learn(bytes, ToSeconds(clock_() - began));
+  const double seconds = ToSeconds(clock_() - began);
+  cost_.Learn(bytes, seconds);
+  keeping_seconds_ += seconds;
+  kept_ += kept.ok() ? 1 : 0;
   if (kept.ok() || IsOwnershipLost(kept)) return kept;
   log_("a step is not journalled: " + std::string(kept.message()));
   return absl::OkStatus();

@@ -33,7 +33,8 @@ UnitResult Result(int64_t rays) {
   return result;
 }
 
-// Counts the steps that are shot, each of which takes `seconds` on a clock of its own.
+// Counts the steps that are shot, each of which takes `seconds` on a clock of its own; looking at
+// the clock takes a millisecond.
 class CountingExecutor : public StepExecutor {
  public:
   absl::StatusOr<UnitResult> RunStep(const std::vector<WorkUnit>& units) override {
@@ -42,7 +43,7 @@ class CountingExecutor : public StepExecutor {
     return Result(units.front().RayCount());
   }
   Clock clock() {
-    return [this] { return now; };
+    return [this] { return now += std::chrono::milliseconds(1); };
   }
   int shot = 0;
   double seconds = 1;
@@ -90,6 +91,19 @@ TEST_F(JournalOf, AnInterruptedRunAnswersFinishedSteps) {
   Run(Step(0, 2)).IgnoreError();
   EXPECT_EQ(inner.shot, 3);
   EXPECT_NE(log.find("goes on at pass 0, step 2"), std::string::npos) << log;
+}
+
+// On this clock keeping a step takes a millisecond.
+TEST_F(JournalOf, StepsThatTakeLittleMoreThanKeepingThemAreNotKeptButForTheFirst) {
+  for (const auto& [seconds, summary] : {std::pair(.005, "kept 1 of 3 steps in 0.001000 s"),
+                                         std::pair(.05, "kept 3 of 3 steps in 0.003000 s")}) {
+    inner.seconds = seconds;
+    JournalExecutor executor(&inner, journal.get(), JournalMode::kAuto, kPatches, inner.clock(),
+                             [](const std::string&) {});
+    const auto pass = static_cast<uint32_t>(seconds * 1000);
+    for (uint32_t step = 0; step < 3; ++step) executor.RunStep(Step(pass, step)).IgnoreError();
+    EXPECT_EQ(executor.Summary(), summary);
+  }
 }
 
 TEST_F(JournalOf, OtherUnitsOfAStepAreShot) {
