@@ -38,11 +38,13 @@ Coordinator::Coordinator(const CoordinatorOptions& options, Stores stores)
       records_(std::move(stores.records)),
       refs_(blobs_.get(), options.uploads.idle, options.clock),
       uploads_(blobs_.get(), options.uploads, options.clock),
+      quotas_(options.quotas, options.day),
       scenes_(blobs_.get(), &refs_, records_.get(), options.scene),
-      jobs_(&refs_, records_.get(), options.max_waiting_jobs),
+      jobs_(&refs_, records_.get(), &quotas_, options.max_waiting_jobs),
+      holdings_(blobs_.get(), &refs_, &uploads_, &scenes_, &jobs_, &quotas_),
       work_(options.work, unit_version_, FirstNumber(*records_), options.clock),
-      runner_({blobs_.get(), &refs_, records_.get(), &scenes_, &jobs_, &work_, options.max_patches,
-               options.journal, options.clock, options.log}),
+      runner_({blobs_.get(), &refs_, records_.get(), &scenes_, &jobs_, &holdings_, &quotas_, &work_,
+               options.max_patches, options.journal, options.clock, options.log}),
       pool_(kPoolThreads) {}
 
 absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Start(const CoordinatorOptions& options) {
@@ -79,7 +81,7 @@ absl::Status Coordinator::Restore() {
 }
 
 void Coordinator::AdoptOrphans() {
-  for (const StoredBlob& blob : blobs_->List()) refs_.NoteUpload(blob.sha256, blob.age);
+  for (const StoredBlob& blob : blobs_->List()) refs_.NoteUpload(blob.sha256, "", 0, blob.age);
   refs_.DropIdle();
 }
 
@@ -124,10 +126,11 @@ bool Coordinator::OwnsStores() {
   return false;
 }
 
-absl::StatusOr<v1::PlanSceneResponse> Coordinator::PlanScene(const v1::PlanSceneRequest& request) {
+absl::StatusOr<v1::PlanSceneResponse> Coordinator::PlanScene(const Identity& who,
+                                                             const v1::PlanSceneRequest& request) {
   absl::StatusOr<JobOptions> options = DecodeSpec(request.spec(), options_.max_patches);
   if (!options.ok()) return options.status();
-  absl::StatusOr<Scene> scene = scenes_.Load(request.scene());
+  absl::StatusOr<Scene> scene = scenes_.Load(request.scene(), who.name);
   if (!scene.ok()) return scene.status();
   absl::StatusOr<PatchSet> patches = BuildPatches(*scene, options->patch);
   if (!patches.ok()) return patches.status();
@@ -142,13 +145,15 @@ absl::StatusOr<v1::PlanSceneResponse> Coordinator::PlanScene(const v1::PlanScene
   return response;
 }
 
-absl::StatusOr<v1::SolveJob> Coordinator::CreateJob(const v1::CreateSolveJobRequest& request) {
+absl::StatusOr<v1::SolveJob> Coordinator::CreateJob(const Identity& who,
+                                                    const v1::CreateSolveJobRequest& request) {
   absl::StatusOr<JobOptions> options = DecodeSpec(request.spec(), options_.max_patches);
   if (!options.ok()) return options.status();
-  absl::StatusOr<v1::Scene> scene = scenes_.Get(request.scene());
+  absl::StatusOr<v1::Scene> scene = scenes_.GetOwn(request.scene(), who.name);
   if (!scene.ok()) return scene.status();
-  absl::StatusOr<JobStore::Created> created =
-      jobs_.Create(request, scene->display_name(), unit_version_);
+  if (absl::Status room = holdings_.CheckBytes(who.name, 0); !room.ok()) return room;
+  if (absl::Status left = quotas_.CheckWork(who.name); !left.ok()) return left;
+  absl::StatusOr<JobStore::Created> created = jobs_.Create(request, *scene, unit_version_);
   if (!created.ok()) return created.status();
   if (created->is_new) {
     options_.log({"created for " + scene->display_name(), {.job = created->job->name()}});
@@ -157,8 +162,8 @@ absl::StatusOr<v1::SolveJob> Coordinator::CreateJob(const v1::CreateSolveJobRequ
   return created->job->Get();
 }
 
-absl::StatusOr<v1::SolveJob> Coordinator::CancelJob(const std::string& name) {
-  absl::StatusOr<std::shared_ptr<Job>> job = jobs_.Find(name);
+absl::StatusOr<v1::SolveJob> Coordinator::CancelJob(const Identity& who, const std::string& name) {
+  absl::StatusOr<std::shared_ptr<Job>> job = jobs_.Find(name, who);
   if (!job.ok()) return job.status();
   if ((*job)->CancelQueued()) {
     if (absl::Status saved = jobs_.Save(**job); !saved.ok()) return saved;
@@ -169,13 +174,15 @@ absl::StatusOr<v1::SolveJob> Coordinator::CancelJob(const std::string& name) {
   return (*job)->Get();
 }
 
-absl::Status Coordinator::DeleteScene(const std::string& name) {
-  if (jobs_.UsesScene(name)) {
+absl::Status Coordinator::DeleteScene(const Identity& who, const std::string& name) {
+  absl::StatusOr<v1::Scene> scene = scenes_.Get(name, who);
+  if (!scene.ok()) return scene.status();
+  if (jobs_.UsesScene(name, scene->owner())) {
     return MakeError(
         absl::StatusCode::kFailedPrecondition,
         {"SCENE_IN_USE", name, "a job that has not ended solves it", "cancel the job first"});
   }
-  return scenes_.Delete(name);
+  return scenes_.Delete(*scene);
 }
 
 }  // namespace lambert::server

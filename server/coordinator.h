@@ -19,6 +19,8 @@
 #include "server/blobs/blob_refs.h"
 #include "server/blobs/blob_store.h"
 #include "server/blobs/uploads.h"
+#include "server/doors/holdings.h"
+#include "server/doors/quotas.h"
 #include "server/jobs/job_store.h"
 #include "server/run/job_runner.h"
 #include "server/run/scheduler.h"
@@ -34,6 +36,8 @@ struct CoordinatorOptions {
   int64_t max_patches = 20'000'000;  // of one job
   int max_running_jobs = 2;          // > 0; others wait
   int max_waiting_jobs = 100;        // jobs that have not ended, > 0
+  QuotaOptions quotas;
+  std::function<int64_t()> day = DayNow;  // when quotas begin anew
   WorkOptions work;
   std::string unit_version;  // "": that of this program
   Clock clock = SteadyNow;
@@ -62,18 +66,20 @@ class Coordinator {
   ~Coordinator();
 
   // What would be done for a scene. Slow.
-  absl::StatusOr<v1::PlanSceneResponse> PlanScene(const v1::PlanSceneRequest& request);
-  absl::StatusOr<v1::SolveJob> CreateJob(const v1::CreateSolveJobRequest& request);
-  absl::StatusOr<v1::SolveJob> CancelJob(const std::string& name);
+  absl::StatusOr<v1::PlanSceneResponse> PlanScene(const Identity& who,
+                                                  const v1::PlanSceneRequest& request);
+  absl::StatusOr<v1::SolveJob> CreateJob(const Identity& who,
+                                         const v1::CreateSolveJobRequest& request);
+  absl::StatusOr<v1::SolveJob> CancelJob(const Identity& who, const std::string& name);
   // SCENE_IN_USE while a job that has not ended solves it.
-  absl::Status DeleteScene(const std::string& name);
+  absl::Status DeleteScene(const Identity& who, const std::string& name);
   // Ends held calls, steps and watchers; jobs stay as they are. What comes later is refused.
   void Shutdown();
   bool is_shutting_down() const { return stopping_.HasBeenNotified(); }
 
   BlobStore& blobs() { return *blobs_; }
-  BlobRefs& refs() { return refs_; }
-  Uploads& uploads() { return uploads_; }
+  Holdings& holdings() { return holdings_; }
+  Quotas& quotas() { return quotas_; }
   SceneStore& scenes() { return scenes_; }
   JobStore& jobs() { return jobs_; }
   WorkTable& work() { return work_; }
@@ -96,8 +102,10 @@ class Coordinator {
   const std::unique_ptr<RecordStore> records_;
   BlobRefs refs_;
   Uploads uploads_;
+  Quotas quotas_;
   SceneStore scenes_;
   JobStore jobs_;
+  Holdings holdings_;
   WorkTable work_;
   Traffic traffic_;
   JobRunner runner_;

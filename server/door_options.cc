@@ -23,6 +23,25 @@ void AddDoorOptions(CLI::App& app, DoorOptions& doors, NewToken& wanted) {
       ->capture_default_str();
 }
 
+void AddLimitOptions(CLI::App& app, CoordinatorOptions& options) {
+  constexpr double kMost = 1e18;
+  const auto add = [&app](const std::string& name, auto& limit, const std::string& help) {
+    app.add_option(name, limit, help)
+        ->check(CLI::Range(0., kMost))
+        ->capture_default_str()
+        ->group("Limits");
+  };
+  add("--max-scene-bytes", options.scene.bytes, "of all files of a scene");
+  add("--max-image-pixels", options.scene.image_pixels, "of one image of a scene");
+  add("--max-patches", options.max_patches, "of a job");
+  add("--client-jobs", options.quotas.jobs, "of a client, not ended; 0: no limit, here and below");
+  add("--client-bytes", options.quotas.stored_bytes, "that a client has stored");
+  add("--client-rays", options.quotas.rays_per_day, "of a client's jobs, a day (UTC)");
+  add("--client-seconds", options.quotas.cpu_seconds_per_day,
+      "of processors, of a client's jobs, a day (UTC)");
+  add("--client-watchers", options.quotas.watchers, "that follow jobs for a client at once");
+}
+
 absl::Status PrintNewToken(const std::string& file, const NewToken& wanted) {
   Identity identity{wanted.name};
   ParseRole(wanted.role, &identity.role);

@@ -1,10 +1,11 @@
-// The options of lambert-server that say who may come in.
+// The options of lambert-server that say who may come in, and what they may use.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
 
 #include "absl/status/status.h"
+#include "server/coordinator.h"
 #include "server/doors/doors.h"
 
 namespace lambert::server {
@@ -16,6 +17,9 @@ struct NewToken {
 };
 
 void AddDoorOptions(CLI::App& app, DoorOptions& doors, NewToken& wanted);
+
+// What a client may have, and what a scene or job may take.
+void AddLimitOptions(CLI::App& app, CoordinatorOptions& options);
 
 // Adds a token to the file and prints it on standard output. Fails as AddToken does.
 absl::Status PrintNewToken(const std::string& file, const NewToken& wanted);

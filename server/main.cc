@@ -116,6 +116,7 @@ int main(int argc, char** argv) {
           CLI::CheckedTransformer(std::map<std::string, JournalMode>{{"auto", JournalMode::kAuto},
                                                                      {"every", JournalMode::kEvery},
                                                                      {"off", JournalMode::kOff}}));
+  lambert::server::AddLimitOptions(app, options);
   lambert::server::NewToken new_token;
   lambert::server::AddDoorOptions(app, places.doors, new_token);
   lambert::TelemetryOptions telemetry;

@@ -13,7 +13,7 @@
 namespace lambert::server {
 
 // What becomes of one record. `kind` and `id` are names that the server made or checked:
-// [a-z0-9-]+.
+// [a-z0-9.-]+.
 struct RecordChange {
   std::string kind, id;
   std::optional<std::string> bytes;  // absent: the record goes

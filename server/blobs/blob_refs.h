@@ -1,6 +1,7 @@
 // Who needs which blob, so that blobs go when nobody does.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -19,20 +20,31 @@ class BlobRefs {
   void Add(const std::string& sha256);
   // Deletes the blob with the last reference to it.
   void Release(const std::string& sha256);
-  // Tells of a blob that was uploaded so long ago.
-  void NoteUpload(const std::string& sha256, Duration age = {});
+  // Tells of a blob that a client uploaded so long ago. Without an owner: only that it is there,
+  // which counts where nobody needs it.
+  void NoteUpload(const std::string& sha256, const std::string& owner, int64_t size_bytes,
+                  Duration age = {});
+  // Forgets that: what the client wanted it for refers to it now.
+  void ForgetUpload(const std::string& sha256, const std::string& owner);
+  // What a client uploaded and was not forgotten, with its sizes.
+  std::map<std::string, int64_t> UploadsOf(const std::string& owner) const;
   // Deletes blobs that were uploaded a while ago and that nobody needs.
   void DropIdle();
 
  private:
-  void DropIfUnused(const std::string& sha256);
+  struct Upload {
+    TimePoint at;
+    int64_t size_bytes = 0;
+  };
+  void DropIfUnused(const std::string& sha256) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   BlobStore* const store_;
   const Duration idle_;
   const Clock clock_;
-  absl::Mutex mutex_;
+  mutable absl::Mutex mutex_;
   std::map<std::string, int> counts_ ABSL_GUARDED_BY(mutex_);
-  std::map<std::string, TimePoint> uploads_ ABSL_GUARDED_BY(mutex_);  // never referenced yet
+  std::map<std::string, std::map<std::string, Upload>> uploads_
+      ABSL_GUARDED_BY(mutex_);  // by digest, then by owner
 };
 
 }  // namespace lambert::server

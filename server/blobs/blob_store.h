@@ -46,19 +46,20 @@ class BlobStore {
   // All stored blobs: what a restart finds.
   virtual std::vector<StoredBlob> List() const = 0;
 
-  // What has arrived of a blob so far, to go on with. Requires: at most one at a time for a digest.
-  virtual absl::StatusOr<std::unique_ptr<PartialBlob>> OpenPartial(const std::string& sha256) = 0;
+  // What has arrived under a key (64 characters of 0-9a-f) so far, to go on with. Requires: at most
+  // one at a time for a key.
+  virtual absl::StatusOr<std::unique_ptr<PartialBlob>> OpenPartial(const std::string& key) = 0;
   // Makes a whole partial blob a stored one. INVALID_ARGUMENT (DIGEST_MISMATCH) where its bytes
   // have another digest; it is dropped then.
   virtual absl::Status Commit(std::unique_ptr<PartialBlob> partial, const std::string& sha256) = 0;
-  // Forgets what has arrived of a blob. Requires: no PartialBlob of it is open.
-  virtual void DropPartial(const std::string& sha256) = 0;
+  // Forgets what has arrived under a key. Requires: no PartialBlob of it is open.
+  virtual void DropPartial(const std::string& key) = 0;
 };
 
 // Keeps everything in memory, partial blobs included, up to `max_bytes` in all.
 std::unique_ptr<BlobStore> MakeMemoryBlobStore(int64_t max_bytes);
 
-// Keeps blobs as `folder`/blobs/DIGEST and partial ones as `folder`/partial/DIGEST, where a
+// Keeps blobs as `folder`/blobs/DIGEST and partial ones as `folder`/partial/KEY, where a
 // restarted server finds both. Bytes are hashed again when they are first read.
 absl::StatusOr<std::unique_ptr<BlobStore>> MakeDirectoryBlobStore(const std::string& folder);
 

@@ -52,6 +52,7 @@ class FilePartialBlob : public PartialBlob {
       : path_(std::move(path)), file_(file), size_(size) {}
   ~FilePartialBlob() override { close(file_); }
   int64_t size() const override { return size_; }
+  const std::string& path() const { return path_; }
   absl::Status Append(absl::string_view data) override {
     int64_t end = size_;
     while (!data.empty()) {
@@ -123,8 +124,8 @@ class DirectoryBlobStore : public BlobStore {
     return blobs;
   }
 
-  absl::StatusOr<std::unique_ptr<PartialBlob>> OpenPartial(const std::string& sha256) override {
-    const std::string path = partial_ + sha256;
+  absl::StatusOr<std::unique_ptr<PartialBlob>> OpenPartial(const std::string& key) override {
+    const std::string path = partial_ + key;
     const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (file < 0) return FileError(path, errno);
     struct stat info {};
@@ -136,14 +137,14 @@ class DirectoryBlobStore : public BlobStore {
   }
 
   absl::Status Commit(std::unique_ptr<PartialBlob> partial, const std::string& sha256) override {
+    const std::string path = static_cast<FilePartialBlob&>(*partial).path();
     absl::Status synced = static_cast<FilePartialBlob&>(*partial).Sync();
     partial.reset();
     if (!synced.ok()) return synced;
-    const std::string path = partial_ + sha256;
     absl::StatusOr<std::shared_ptr<const MappedBlob>> blob = MappedBlob::Open(path);
     if (!blob.ok()) return blob.status();
     if (Sha256Hex((*blob)->bytes().data(), (*blob)->bytes().size()) != sha256) {
-      DropPartial(sha256);
+      unlink(path.c_str());
       return DigestMismatch(sha256);
     }
     Failpoint("upload-before-rename");
@@ -154,7 +155,7 @@ class DirectoryBlobStore : public BlobStore {
     return absl::OkStatus();
   }
 
-  void DropPartial(const std::string& sha256) override { unlink((partial_ + sha256).c_str()); }
+  void DropPartial(const std::string& key) override { unlink((partial_ + key).c_str()); }
 
  private:
   bool IsVerified(const std::string& sha256) const {

@@ -17,6 +17,11 @@ absl::Status OffsetMismatch(const std::string& sha256, int64_t offset, int64_t c
   return status;
 }
 
+// Names what has arrived, like a digest: no other owner's can have this name.
+std::string KeyOf(const std::string& sha256, const std::string& owner) {
+  return owner.empty() ? sha256 : Sha256Hex(owner + '\0' + sha256);
+}
+
 }  // namespace
 
 Uploads::Uploads(BlobStore* store, const UploadLimits& limits, Clock clock)
@@ -42,37 +47,50 @@ absl::Status Uploads::Check(const std::string& sha256, int64_t size_bytes) const
   return absl::OkStatus();
 }
 
-absl::Status Uploads::Open(const std::string& sha256) {
+absl::Status Uploads::Open(const std::string& key, const std::string& owner) {
   {
     absl::MutexLock lock(&mutex_);
-    if (entries_.count(sha256) > 0) return absl::OkStatus();
-    entries_[sha256].last_use = clock_();  // busy until it is open
+    if (entries_.count(key) > 0) return absl::OkStatus();
+    entries_[key].owner = owner;
+    entries_[key].last_use = clock_();  // busy until it is open
   }
   DropOldest();
-  absl::StatusOr<std::unique_ptr<PartialBlob>> partial = store_->OpenPartial(sha256);
+  absl::StatusOr<std::unique_ptr<PartialBlob>> partial = store_->OpenPartial(key);
   absl::MutexLock lock(&mutex_);
   if (!partial.ok()) {
-    entries_.erase(sha256);
+    entries_.erase(key);
     return partial.status();
   }
-  entries_[sha256].committed_bytes = (*partial)->size();
-  entries_[sha256].partial = *std::move(partial);
+  entries_[key].committed_bytes = (*partial)->size();
+  entries_[key].partial = *std::move(partial);
   return absl::OkStatus();
 }
 
-absl::StatusOr<int64_t> Uploads::CommittedSize(const std::string& sha256, int64_t size_bytes) {
+absl::StatusOr<int64_t> Uploads::CommittedSize(const std::string& sha256, int64_t size_bytes,
+                                               const std::string& owner) {
   if (absl::Status status = Check(sha256, size_bytes); !status.ok()) return status;
-  if (store_->Has(sha256)) return size_bytes;
-  if (absl::Status status = Open(sha256); !status.ok()) return status;
+  if (owner.empty() && store_->Has(sha256)) return size_bytes;
+  const std::string key = KeyOf(sha256, owner);
+  if (absl::Status status = Open(key, owner); !status.ok()) return status;
   absl::MutexLock lock(&mutex_);
-  auto entry = entries_.find(sha256);
+  auto entry = entries_.find(key);
   return entry == entries_.end() ? 0 : entry->second.committed_bytes;
 }
 
-absl::StatusOr<std::unique_ptr<PartialBlob>> Uploads::Take(const std::string& sha256,
+int64_t Uploads::BytesOf(const std::string& owner) {
+  absl::MutexLock lock(&mutex_);
+  int64_t bytes = 0;
+  for (const auto& [key, entry] : entries_) {
+    if (entry.owner == owner) bytes += entry.committed_bytes;
+  }
+  return bytes;
+}
+
+absl::StatusOr<std::unique_ptr<PartialBlob>> Uploads::Take(const std::string& key,
+                                                           const std::string& sha256,
                                                            int64_t offset_bytes) {
   absl::MutexLock lock(&mutex_);
-  auto entry = entries_.find(sha256);
+  auto entry = entries_.find(key);
   if (entry == entries_.end()) return OffsetMismatch(sha256, offset_bytes, 0);
   if (entry->second.partial == nullptr || entry->second.committed_bytes != offset_bytes) {
     return OffsetMismatch(sha256, offset_bytes, entry->second.committed_bytes);
@@ -82,15 +100,17 @@ absl::StatusOr<std::unique_ptr<PartialBlob>> Uploads::Take(const std::string& sh
 }
 
 absl::StatusOr<int64_t> Uploads::Write(const std::string& sha256, int64_t size_bytes,
-                                       int64_t offset_bytes, absl::string_view data) {
+                                       int64_t offset_bytes, absl::string_view data,
+                                       const std::string& owner) {
   if (absl::Status status = Check(sha256, size_bytes); !status.ok()) return status;
-  if (store_->Has(sha256)) return size_bytes;
-  if (absl::Status status = Open(sha256); !status.ok()) return status;
+  if (owner.empty() && store_->Has(sha256)) return size_bytes;
+  const std::string key = KeyOf(sha256, owner);
+  if (absl::Status status = Open(key, owner); !status.ok()) return status;
   if (offset_bytes < 0 || static_cast<int64_t>(data.size()) > size_bytes - offset_bytes) {
-    absl::StatusOr<int64_t> committed = CommittedSize(sha256, size_bytes);
+    absl::StatusOr<int64_t> committed = CommittedSize(sha256, size_bytes, owner);
     return OffsetMismatch(sha256, offset_bytes, committed.value_or(0));
   }
-  absl::StatusOr<std::unique_ptr<PartialBlob>> partial = Take(sha256, offset_bytes);
+  absl::StatusOr<std::unique_ptr<PartialBlob>> partial = Take(key, sha256, offset_bytes);
   if (!partial.ok()) return partial.status();
 
   absl::Status status = (*partial)->Append(data);
@@ -99,10 +119,10 @@ absl::StatusOr<int64_t> Uploads::Write(const std::string& sha256, int64_t size_b
   if (complete) status = store_->Commit(*std::move(partial), sha256);
   absl::MutexLock lock(&mutex_);
   if (complete) {
-    entries_.erase(sha256);
+    entries_.erase(key);
   } else {
-    entries_[sha256].committed_bytes = committed;
-    entries_[sha256].partial = *std::move(partial);
+    entries_[key].committed_bytes = committed;
+    entries_[key].partial = *std::move(partial);
   }
   if (!status.ok()) return status;
   return committed;
@@ -118,7 +138,7 @@ void Uploads::DropOldest() {
   {
     absl::MutexLock lock(&mutex_);
     if (static_cast<int>(entries_.size()) <= limits_.count) return;
-    for (const auto& [sha256, entry] : entries_) {
+    for (const auto& [key, entry] : entries_) {
       if (entry.partial != nullptr) oldest = std::min(oldest, entry.last_use);
     }
   }
@@ -135,9 +155,9 @@ void Uploads::Drop(const std::function<bool(const Entry&)>& is_dropped) {
       it = drop ? entries_.erase(it) : std::next(it);
     }
   }
-  for (auto& [sha256, entry] : dropped) {
+  for (auto& [key, entry] : dropped) {
     entry.partial.reset();
-    store_->DropPartial(sha256);
+    store_->DropPartial(key);
   }
 }
 

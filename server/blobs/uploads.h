@@ -19,19 +19,24 @@ struct UploadLimits {
   Duration idle = std::chrono::hours(1);  // an upload untouched for this long is forgotten
 };
 
-// Thread safe. Clients may write to one blob at the same time; each piece has to begin where the
+// Thread safe. Each client ("" for anybody) has uploads of its own: nobody learns what others send.
+// Programs of a client may write to one blob at the same time; each piece has to begin where the
 // bytes so far end, so whoever comes late gets OFFSET_MISMATCH and asks where to go on.
 class Uploads {
  public:
   Uploads(BlobStore* store, const UploadLimits& limits, Clock clock);
 
-  // Bytes that have arrived, `size_bytes` for a stored blob.
-  absl::StatusOr<int64_t> CommittedSize(const std::string& sha256, int64_t size_bytes);
+  // Bytes that have arrived; without an owner, `size_bytes` for a stored blob.
+  absl::StatusOr<int64_t> CommittedSize(const std::string& sha256, int64_t size_bytes,
+                                        const std::string& owner = "");
 
   // Adds a piece; the one that completes the blob stores it. Returns the committed size. Fails with
   // FIELD_INVALID, BLOB_TOO_LARGE, OFFSET_MISMATCH, DIGEST_MISMATCH, STORE_FULL.
   absl::StatusOr<int64_t> Write(const std::string& sha256, int64_t size_bytes, int64_t offset_bytes,
-                                absl::string_view data);
+                                absl::string_view data, const std::string& owner = "");
+
+  // Bytes that have arrived of the uploads of a client that are under way.
+  int64_t BytesOf(const std::string& owner);
 
   // Forgets uploads that nobody goes on with.
   void DropIdle();
@@ -39,14 +44,16 @@ class Uploads {
  private:
   struct Entry {
     std::unique_ptr<PartialBlob> partial;  // null while a writer has it
+    std::string owner;
     int64_t committed_bytes = 0;
     TimePoint last_use;
   };
   absl::Status Check(const std::string& sha256, int64_t size_bytes) const;
   // Takes the partial blob out of its entry, for use without the lock.
-  absl::StatusOr<std::unique_ptr<PartialBlob>> Take(const std::string& sha256,
+  absl::StatusOr<std::unique_ptr<PartialBlob>> Take(const std::string& key,
+                                                    const std::string& sha256,
                                                     int64_t offset_bytes);
-  absl::Status Open(const std::string& sha256);
+  absl::Status Open(const std::string& key, const std::string& owner);
   void DropOldest();
   void Drop(const std::function<bool(const Entry&)>& is_dropped);
 
@@ -54,7 +61,7 @@ class Uploads {
   const UploadLimits limits_;
   const Clock clock_;
   absl::Mutex mutex_;
-  std::map<std::string, Entry> entries_ ABSL_GUARDED_BY(mutex_);
+  std::map<std::string, Entry> entries_ ABSL_GUARDED_BY(mutex_);  // by KeyOf
 };
 
 }  // namespace lambert::server

@@ -21,6 +21,8 @@ struct Identity {
   bool is_client() const { return role != Role::kWorker; }
   bool is_worker() const { return role == Role::kWorker || role == Role::kAnybody; }
   bool sees_all() const { return role == Role::kAdmin || role == Role::kAnybody; }
+  // Whether it sees what belongs to `owner`.
+  bool Sees(const std::string& owner) const { return sees_all() || owner == name; }
 };
 
 bool IsIdentityName(const std::string& name);

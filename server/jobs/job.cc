@@ -13,7 +13,10 @@ bool IsFinal(v1::SolveJob::State state) {
 }
 
 Job::Job(v1::SolveJob record, std::vector<v1::Snapshot> snapshots)
-    : name_(record.name()), record_(std::move(record)), snapshots_(std::move(snapshots)) {}
+    : name_(record.name()),
+      owner_(record.owner()),
+      record_(std::move(record)),
+      snapshots_(std::move(snapshots)) {}
 
 std::string Job::id() const { return name_.substr(name_.find('/') + 1); }
 

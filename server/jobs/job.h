@@ -27,6 +27,7 @@ class Job {
 
   const std::string& name() const { return name_; }  // solveJobs/{id}
   std::string id() const;
+  const std::string& owner() const { return owner_; }  // SolveJob.owner
 
   v1::SolveJob Get() const;
   bool ended() const;
@@ -59,7 +60,7 @@ class Job {
  private:
   void Tell();
 
-  const std::string name_;
+  const std::string name_, owner_;
   mutable absl::Mutex mutex_;
   v1::SolveJob record_ ABSL_GUARDED_BY(mutex_);
   std::vector<v1::Snapshot> snapshots_ ABSL_GUARDED_BY(mutex_);

@@ -57,8 +57,8 @@ absl::Status JobNotFound(const std::string& name) {
 
 }  // namespace
 
-JobStore::JobStore(BlobRefs* refs, RecordStore* records, int max_waiting)
-    : refs_(refs), records_(records), max_waiting_(max_waiting) {}
+JobStore::JobStore(BlobRefs* refs, RecordStore* records, const Quotas* quotas, int max_waiting)
+    : refs_(refs), records_(records), quotas_(quotas), max_waiting_(max_waiting) {}
 
 absl::StatusOr<std::vector<std::shared_ptr<Job>>> JobStore::Restore() {
   absl::StatusOr<std::map<std::string, std::string>> records = records_->LoadAll(kJobs);
@@ -92,14 +92,16 @@ absl::StatusOr<std::vector<std::shared_ptr<Job>>> JobStore::Restore() {
 }
 
 absl::StatusOr<JobStore::Created> JobStore::Create(const v1::CreateSolveJobRequest& request,
-                                                   const std::string& scene_display_name,
+                                                   const v1::Scene& scene,
                                                    const std::string& unit_version) {
   absl::StatusOr<std::string> id = ChooseId(request);
   if (!id.ok()) return id.status();
   v1::SolveJob record;
-  record.set_name(kPrefix + *id);
-  record.set_scene(request.scene());
-  record.set_scene_display_name(scene_display_name);
+  // An id has no dot: what a client chooses is never the name of another's job.
+  record.set_name(kPrefix + (scene.owner().empty() ? *id : scene.owner() + "." + *id));
+  record.set_owner(scene.owner());
+  record.set_scene(scene.name());
+  record.set_scene_display_name(scene.display_name());
   *record.mutable_spec() = request.spec();
   record.set_state(v1::SolveJob::STATE_QUEUED);
   *record.mutable_progress() = EncodeProgress(Progress());
@@ -126,6 +128,10 @@ absl::StatusOr<JobStore::Created> JobStore::Create(const v1::CreateSolveJobReque
           {"TOO_MANY_JOBS", record.name(), std::to_string(waiting) + " jobs have not ended yet",
            "wait for some, or cancel them"});
     }
+    const auto own = std::count_if(jobs_.begin(), jobs_.end(), [&](const auto& entry) {
+      return entry.second->owner() == scene.owner() && !entry.second->ended();
+    });
+    if (absl::Status status = quotas_->CheckJobs(scene.owner(), own); !status.ok()) return status;
     jobs_[record.name()] = job;
   }
   absl::Status saved = Save(*job);
@@ -135,17 +141,20 @@ absl::StatusOr<JobStore::Created> JobStore::Create(const v1::CreateSolveJobReque
   return saved;
 }
 
-absl::StatusOr<std::shared_ptr<Job>> JobStore::Find(const std::string& name) const {
+absl::StatusOr<std::shared_ptr<Job>> JobStore::Find(const std::string& name,
+                                                    const Identity& who) const {
   absl::MutexLock lock(&mutex_);
   auto job = jobs_.find(name);
-  if (job == jobs_.end()) return JobNotFound(name);
+  if (job == jobs_.end() || !who.Sees(job->second->owner())) return JobNotFound(name);
   return job->second;
 }
 
 absl::StatusOr<Page<std::shared_ptr<Job>>> JobStore::List(int page_size,
-                                                          const std::string& page_token) const {
+                                                          const std::string& page_token,
+                                                          const Identity& who) const {
   absl::MutexLock lock(&mutex_);
-  return TakePage(jobs_, page_size, page_token);
+  return TakePage(jobs_, page_size, page_token,
+                  [&](const std::shared_ptr<Job>& job) { return who.Sees(job->owner()); });
 }
 
 std::vector<std::shared_ptr<Job>> JobStore::All() const {
@@ -155,12 +164,12 @@ std::vector<std::shared_ptr<Job>> JobStore::All() const {
   return all;
 }
 
-absl::Status JobStore::Delete(const std::string& name) {
+absl::Status JobStore::Delete(const std::string& name, const Identity& who) {
   std::shared_ptr<Job> job;
   {
     absl::MutexLock lock(&mutex_);
     auto found = jobs_.find(name);
-    if (found == jobs_.end()) return JobNotFound(name);
+    if (found == jobs_.end() || !who.Sees(found->second->owner())) return JobNotFound(name);
     if (!found->second->ended()) {
       return MakeError(absl::StatusCode::kFailedPrecondition,
                        {"JOB_NOT_ENDED", name, "the job has not ended", "cancel it first"});
@@ -182,11 +191,29 @@ absl::Status JobStore::Delete(const std::string& name) {
   return absl::OkStatus();
 }
 
-bool JobStore::UsesScene(const std::string& scene) const {
+bool JobStore::UsesScene(const std::string& scene, const std::string& owner) const {
   for (const std::shared_ptr<Job>& job : All()) {
-    if (!job->ended() && job->Get().scene() == scene) return true;
+    if (!job->ended() && job->owner() == owner && job->Get().scene() == scene) return true;
   }
   return false;
+}
+
+bool JobStore::IsPatchSetOfRunning(const std::string& sha256) const {
+  for (const std::shared_ptr<Job>& job : All()) {
+    if (!job->ended() && job->Get().patch_set_digest().sha256() == sha256) return true;
+  }
+  return false;
+}
+
+void JobStore::AddBlobsOf(const std::string& owner, std::map<std::string, int64_t>& blobs) const {
+  for (const std::shared_ptr<Job>& job : All()) {
+    if (job->owner() != owner) continue;
+    const v1::SolveJob record = job->Get();
+    for (const v1::Digest& digest :
+         {record.patch_set_digest(), record.latest_snapshot().payload_digest()}) {
+      if (!digest.sha256().empty()) blobs[digest.sha256()] = digest.size_bytes();
+    }
+  }
 }
 
 absl::Status JobStore::Save(const Job& job, std::vector<RecordChange> changes) {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <memory>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -25,8 +24,8 @@ absl::Status FieldInvalid(const std::string& field, const std::string& what,
 // Takes one piece after the other. Writing, hashing and fsync happen on the coordinator's pool.
 class UploadReactor : public grpc::ServerReadReactor<v1::UploadBlobRequest> {
  public:
-  UploadReactor(Coordinator* coordinator, v1::UploadBlobResponse* response)
-      : coordinator_(coordinator), response_(response) {
+  UploadReactor(Coordinator* coordinator, Identity caller, v1::UploadBlobResponse* response)
+      : coordinator_(coordinator), caller_(std::move(caller)), response_(response) {
     StartRead(&request_);
   }
   void OnReadDone(bool ok) override {
@@ -44,16 +43,16 @@ class UploadReactor : public grpc::ServerReadReactor<v1::UploadBlobRequest> {
     if (request_.data().size() > kChunkBytes) {
       return Finish(ToGrpc(FieldInvalid("data", "is larger than 1 MiB", "send smaller pieces")));
     }
-    absl::StatusOr<int64_t> committed = coordinator_->uploads().Write(
-        digest_.sha256(), digest_.size_bytes(), request_.offset_bytes(), request_.data());
+    absl::StatusOr<int64_t> committed =
+        coordinator_->holdings().Upload(caller_, digest_, request_.offset_bytes(), request_.data());
     if (!committed.ok()) return Finish(ToGrpc(committed.status()));
-    if (*committed == digest_.size_bytes()) coordinator_->refs().NoteUpload(digest_.sha256());
     coordinator_->traffic().uploaded_bytes += static_cast<int64_t>(request_.data().size());
     response_->set_committed_size_bytes(*committed);
     StartRead(&request_);
   }
 
   Coordinator* const coordinator_;
+  const Identity caller_;
   v1::UploadBlobResponse* const response_;
   v1::UploadBlobRequest request_;
   v1::Digest digest_;
@@ -111,7 +110,7 @@ class BlobService : public v1::BlobService::CallbackService {
                                              const v1::FindMissingBlobsRequest* request,
                                              v1::FindMissingBlobsResponse* response) override {
     return Answer(context, doors_, Guests::kClients, response,
-                  [&](const Identity&) { return FindMissing(*request); });
+                  [&](const Identity& caller) { return FindMissing(caller, *request); });
   }
   grpc::ServerReadReactor<v1::UploadBlobRequest>* UploadBlob(
       grpc::CallbackServerContext* context, v1::UploadBlobResponse* response) override {
@@ -119,13 +118,14 @@ class BlobService : public v1::BlobService::CallbackService {
     if (!caller.ok()) {
       return new Refused<grpc::ServerReadReactor<v1::UploadBlobRequest>>(caller.status());
     }
-    return new UploadReactor(coordinator_, response);
+    return new UploadReactor(coordinator_, *caller, response);
   }
   grpc::ServerUnaryReactor* GetBlobUpload(grpc::CallbackServerContext* context,
                                           const v1::GetBlobUploadRequest* request,
                                           v1::BlobUpload* response) override {
-    return Answer(context, doors_, Guests::kClients, response,
-                  [&](const Identity&) { return FindUpload(request->digest()); });
+    return Answer(context, doors_, Guests::kClients, response, [&](const Identity& caller) {
+      return coordinator_->holdings().FindUpload(caller, request->digest());
+    });
   }
   grpc::ServerWriteReactor<v1::DownloadBlobResponse>* DownloadBlob(
       grpc::CallbackServerContext* context, const v1::DownloadBlobRequest* request) override {
@@ -135,36 +135,25 @@ class BlobService : public v1::BlobService::CallbackService {
     }
     absl::StatusOr<std::shared_ptr<const Blob>> blob =
         FieldInvalid("sha256", "is not a SHA-256", "send 64 lower-case hexadecimal characters");
-    if (IsSha256Hex(request->sha256())) blob = coordinator_->blobs().Get(request->sha256());
+    if (IsSha256Hex(request->sha256())) {
+      blob = coordinator_->holdings().Read(*caller, request->sha256());
+    }
     return new DownloadReactor(&coordinator_->traffic(), std::move(blob), request->offset_bytes());
   }
 
  private:
-  absl::StatusOr<v1::BlobUpload> FindUpload(const v1::Digest& digest) {
-    absl::StatusOr<int64_t> committed =
-        coordinator_->uploads().CommittedSize(digest.sha256(), digest.size_bytes());
-    if (!committed.ok()) return committed.status();
-    v1::BlobUpload upload;
-    upload.set_committed_size_bytes(*committed);
-    upload.set_complete(coordinator_->blobs().Has(digest.sha256()));
-    return upload;
-  }
   absl::StatusOr<v1::FindMissingBlobsResponse> FindMissing(
-      const v1::FindMissingBlobsRequest& request) {
+      const Identity& caller, const v1::FindMissingBlobsRequest& request) {
     if (request.digests_size() > kMaxDigests) {
       return FieldInvalid("digests", "holds more than 10,000", "ask in several calls");
     }
-    v1::FindMissingBlobsResponse response;
-    std::set<std::string> seen;
     for (const v1::Digest& digest : request.digests()) {
       if (!IsSha256Hex(digest.sha256())) {
         return FieldInvalid("digests.sha256", "is not a SHA-256",
                             "send 64 lower-case hexadecimal characters");
       }
-      if (!seen.insert(digest.sha256()).second) continue;
-      if (!coordinator_->blobs().Has(digest.sha256())) *response.add_missing_digests() = digest;
     }
-    return response;
+    return coordinator_->holdings().FindMissing(caller, request);
   }
 
   Coordinator* const coordinator_;

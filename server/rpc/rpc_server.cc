@@ -20,12 +20,14 @@ namespace {
 constexpr auto kGrace = std::chrono::milliseconds(500);
 constexpr int kKeepaliveMs = 20'000;
 constexpr int kMinClientPingMs = 1'000;
+constexpr int kHandshakeMs = 10'000;      // connections that have not begun to speak by then end
 constexpr int kMaxGrantBytes = 64 << 20;  // what a worker takes in one message
 
 void SetKeepalive(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveMs);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMs);
   // Clients may ping often, to see a lost server soon.
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
                              kMinClientPingMs);

@@ -20,8 +20,8 @@ class SceneService : public v1::SceneService::CallbackService {
     const absl::StatusOr<Identity> caller = doors_.Admit(*context, Guests::kClients);
     if (!caller.ok()) return Reply(context, caller.status());
     grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-    coordinator_->pool().Run([this, reactor, request, response] {
-      absl::StatusOr<v1::Scene> scene = coordinator_->scenes().Create(*request);
+    coordinator_->pool().Run([this, caller = *caller, reactor, request, response] {
+      absl::StatusOr<v1::Scene> scene = coordinator_->holdings().CreateScene(caller, *request);
       if (scene.ok()) *response = *std::move(scene);
       reactor->Finish(ToGrpc(scene.status()));
     });
@@ -30,26 +30,29 @@ class SceneService : public v1::SceneService::CallbackService {
   grpc::ServerUnaryReactor* GetScene(grpc::CallbackServerContext* context,
                                      const v1::GetSceneRequest* request,
                                      v1::Scene* response) override {
-    return Answer(context, doors_, Guests::kClients, response,
-                  [&](const Identity&) { return coordinator_->scenes().Get(request->name()); });
+    return Answer(context, doors_, Guests::kClients, response, [&](const Identity& caller) {
+      return coordinator_->scenes().Get(request->name(), caller);
+    });
   }
   grpc::ServerUnaryReactor* ListScenes(grpc::CallbackServerContext* context,
                                        const v1::ListScenesRequest* request,
                                        v1::ListScenesResponse* response) override {
     return Answer(context, doors_, Guests::kClients, response,
-                  [&](const Identity&) { return List(*request); });
+                  [&](const Identity& caller) { return List(caller, *request); });
   }
   grpc::ServerUnaryReactor* DeleteScene(grpc::CallbackServerContext* context,
                                         const v1::DeleteSceneRequest* request,
                                         google::protobuf::Empty*) override {
-    return Answer(context, doors_, Guests::kClients,
-                  [&](const Identity&) { return coordinator_->DeleteScene(request->name()); });
+    return Answer(context, doors_, Guests::kClients, [&](const Identity& caller) {
+      return coordinator_->DeleteScene(caller, request->name());
+    });
   }
 
  private:
-  absl::StatusOr<v1::ListScenesResponse> List(const v1::ListScenesRequest& request) {
+  absl::StatusOr<v1::ListScenesResponse> List(const Identity& caller,
+                                              const v1::ListScenesRequest& request) {
     absl::StatusOr<Page<v1::Scene>> page =
-        coordinator_->scenes().List(request.page_size(), request.page_token());
+        coordinator_->scenes().List(request.page_size(), request.page_token(), caller);
     if (!page.ok()) return page.status();
     v1::ListScenesResponse response;
     for (v1::Scene& scene : page->items) *response.add_scenes() = std::move(scene);

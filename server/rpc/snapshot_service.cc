@@ -22,6 +22,8 @@ absl::Status SnapshotNotFound(const std::string& name) {
                    {"SNAPSHOT_NOT_FOUND", name, "there is no such snapshot", "ask for latest"});
 }
 
+using NoStream = Refused<grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>>;
+
 // One watcher. At most one write is under way; news that comes meanwhile waits in the job, where
 // newer news replaces it. Lives until gRPC calls OnDone.
 class WatchReactor : public grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>,
@@ -29,23 +31,27 @@ class WatchReactor : public grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>
                      public std::enable_shared_from_this<WatchReactor> {
  public:
   static grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>* Start(
-      Coordinator* coordinator, const v1::WatchSnapshotsRequest& request) {
-    auto reactor = std::make_shared<WatchReactor>(coordinator);
+      Coordinator* coordinator, const Identity& caller, const v1::WatchSnapshotsRequest& request) {
+    absl::StatusOr<std::shared_ptr<Job>> job = coordinator->jobs().Find(request.parent(), caller);
+    if (!job.ok()) return new NoStream(job.status());
+    const absl::Status room = coordinator->quotas().BeginWatch(caller.name);
+    if (!room.ok()) return new NoStream(room);
+    auto reactor = std::make_shared<WatchReactor>(coordinator, caller.name);
     reactor->self_ = reactor;
-    absl::StatusOr<std::shared_ptr<Job>> job = coordinator->jobs().Find(request.parent());
-    if (!job.ok()) {
-      reactor->Finish(ToGrpc(job.status()));
-      return reactor.get();
-    }
     reactor->cursor_.emplace(*job, &coordinator->blobs(), request);
     (*job)->AddListener(reactor);
     reactor->OnNews();
     return reactor.get();
   }
-  explicit WatchReactor(Coordinator* coordinator) : coordinator_(coordinator) {
+  // Requires: BeginWatch for `watcher`.
+  WatchReactor(Coordinator* coordinator, std::string watcher)
+      : coordinator_(coordinator), watcher_(std::move(watcher)) {
     ++coordinator_->traffic().watchers;
   }
-  ~WatchReactor() override { --coordinator_->traffic().watchers; }
+  ~WatchReactor() override {
+    --coordinator_->traffic().watchers;
+    coordinator_->quotas().EndWatch(watcher_);
+  }
 
   void OnNews() override {
     absl::MutexLock lock(&mutex_);
@@ -88,6 +94,7 @@ class WatchReactor : public grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>
   }
 
   Coordinator* const coordinator_;
+  const std::string watcher_;  // "" for anybody
   std::shared_ptr<WatchReactor> self_;
   absl::Mutex mutex_;
   std::optional<WatchCursor> cursor_;
@@ -105,27 +112,26 @@ class SnapshotService : public v1::SnapshotService::CallbackService {
   grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>* WatchSnapshots(
       grpc::CallbackServerContext* context, const v1::WatchSnapshotsRequest* request) override {
     const absl::StatusOr<Identity> caller = doors_.Admit(*context, Guests::kClients);
-    if (!caller.ok()) {
-      return new Refused<grpc::ServerWriteReactor<v1::WatchSnapshotsResponse>>(caller.status());
-    }
-    return WatchReactor::Start(coordinator_, *request);
+    if (!caller.ok()) return new NoStream(caller.status());
+    return WatchReactor::Start(coordinator_, *caller, *request);
   }
   grpc::ServerUnaryReactor* GetSnapshot(grpc::CallbackServerContext* context,
                                         const v1::GetSnapshotRequest* request,
                                         v1::Snapshot* response) override {
     return Answer(context, doors_, Guests::kClients, response,
-                  [&](const Identity&) { return Find(request->name()); });
+                  [&](const Identity& caller) { return Find(caller, request->name()); });
   }
   grpc::ServerUnaryReactor* ListSnapshots(grpc::CallbackServerContext* context,
                                           const v1::ListSnapshotsRequest* request,
                                           v1::ListSnapshotsResponse* response) override {
     return Answer(context, doors_, Guests::kClients, response,
-                  [&](const Identity&) { return List(*request); });
+                  [&](const Identity& caller) { return List(caller, *request); });
   }
 
  private:
-  absl::StatusOr<v1::ListSnapshotsResponse> List(const v1::ListSnapshotsRequest& request) {
-    absl::StatusOr<std::shared_ptr<Job>> job = coordinator_->jobs().Find(request.parent());
+  absl::StatusOr<v1::ListSnapshotsResponse> List(const Identity& caller,
+                                                 const v1::ListSnapshotsRequest& request) {
+    absl::StatusOr<std::shared_ptr<Job>> job = coordinator_->jobs().Find(request.parent(), caller);
     if (!job.ok()) return job.status();
     std::map<std::string, v1::Snapshot> by_version;
     for (v1::Snapshot& snapshot : (*job)->snapshots()) {
@@ -141,10 +147,11 @@ class SnapshotService : public v1::SnapshotService::CallbackService {
     response.set_next_page_token(page->next_page_token);
     return response;
   }
-  absl::StatusOr<v1::Snapshot> Find(const std::string& name) {
+  absl::StatusOr<v1::Snapshot> Find(const Identity& caller, const std::string& name) {
     const size_t end = name.find(kSnapshots);
     if (end == std::string::npos) return SnapshotNotFound(name);
-    absl::StatusOr<std::shared_ptr<Job>> job = coordinator_->jobs().Find(name.substr(0, end));
+    absl::StatusOr<std::shared_ptr<Job>> job =
+        coordinator_->jobs().Find(name.substr(0, end), caller);
     if (!job.ok()) return job.status();
     const std::vector<v1::Snapshot> snapshots = (*job)->snapshots();
     if (name.substr(end) == std::string(kSnapshots) + "latest" && !snapshots.empty()) {

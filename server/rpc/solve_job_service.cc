@@ -20,8 +20,8 @@ class SolveJobService : public v1::SolveJobService::CallbackService {
     const absl::StatusOr<Identity> caller = doors_.Admit(*context, Guests::kClients);
     if (!caller.ok()) return Reply(context, caller.status());
     grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-    coordinator_->pool().Run([this, reactor, request, response] {
-      absl::StatusOr<v1::PlanSceneResponse> plan = coordinator_->PlanScene(*request);
+    coordinator_->pool().Run([this, caller = *caller, reactor, request, response] {
+      absl::StatusOr<v1::PlanSceneResponse> plan = coordinator_->PlanScene(caller, *request);
       if (plan.ok()) *response = *std::move(plan);
       reactor->Finish(ToGrpc(plan.status()));
     });
@@ -30,43 +30,47 @@ class SolveJobService : public v1::SolveJobService::CallbackService {
   grpc::ServerUnaryReactor* CreateSolveJob(grpc::CallbackServerContext* context,
                                            const v1::CreateSolveJobRequest* request,
                                            v1::SolveJob* response) override {
-    return Answer(context, doors_, Guests::kClients, response,
-                  [&](const Identity&) { return coordinator_->CreateJob(*request); });
+    return Answer(context, doors_, Guests::kClients, response, [&](const Identity& caller) {
+      return coordinator_->CreateJob(caller, *request);
+    });
   }
   grpc::ServerUnaryReactor* GetSolveJob(grpc::CallbackServerContext* context,
                                         const v1::GetSolveJobRequest* request,
                                         v1::SolveJob* response) override {
     return Answer(context, doors_, Guests::kClients, response,
-                  [&](const Identity&) { return Get(request->name()); });
+                  [&](const Identity& caller) { return Get(caller, request->name()); });
   }
   grpc::ServerUnaryReactor* ListSolveJobs(grpc::CallbackServerContext* context,
                                           const v1::ListSolveJobsRequest* request,
                                           v1::ListSolveJobsResponse* response) override {
     return Answer(context, doors_, Guests::kClients, response,
-                  [&](const Identity&) { return List(*request); });
+                  [&](const Identity& caller) { return List(caller, *request); });
   }
   grpc::ServerUnaryReactor* CancelSolveJob(grpc::CallbackServerContext* context,
                                            const v1::CancelSolveJobRequest* request,
                                            v1::SolveJob* response) override {
-    return Answer(context, doors_, Guests::kClients, response,
-                  [&](const Identity&) { return coordinator_->CancelJob(request->name()); });
+    return Answer(context, doors_, Guests::kClients, response, [&](const Identity& caller) {
+      return coordinator_->CancelJob(caller, request->name());
+    });
   }
   grpc::ServerUnaryReactor* DeleteSolveJob(grpc::CallbackServerContext* context,
                                            const v1::DeleteSolveJobRequest* request,
                                            google::protobuf::Empty*) override {
-    return Answer(context, doors_, Guests::kClients,
-                  [&](const Identity&) { return coordinator_->jobs().Delete(request->name()); });
+    return Answer(context, doors_, Guests::kClients, [&](const Identity& caller) {
+      return coordinator_->jobs().Delete(request->name(), caller);
+    });
   }
 
  private:
-  absl::StatusOr<v1::SolveJob> Get(const std::string& name) {
-    absl::StatusOr<std::shared_ptr<Job>> job = coordinator_->jobs().Find(name);
+  absl::StatusOr<v1::SolveJob> Get(const Identity& caller, const std::string& name) {
+    absl::StatusOr<std::shared_ptr<Job>> job = coordinator_->jobs().Find(name, caller);
     if (!job.ok()) return job.status();
     return (*job)->Get();
   }
-  absl::StatusOr<v1::ListSolveJobsResponse> List(const v1::ListSolveJobsRequest& request) {
+  absl::StatusOr<v1::ListSolveJobsResponse> List(const Identity& caller,
+                                                 const v1::ListSolveJobsRequest& request) {
     absl::StatusOr<Page<std::shared_ptr<Job>>> page =
-        coordinator_->jobs().List(request.page_size(), request.page_token());
+        coordinator_->jobs().List(request.page_size(), request.page_token(), caller);
     if (!page.ok()) return page.status();
     v1::ListSolveJobsResponse response;
     for (const std::shared_ptr<Job>& job : page->items) *response.add_solve_jobs() = job->Get();

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -86,16 +87,34 @@ class SyncReactor : public grpc::ServerUnaryReactor {
   w1::SyncWorkerSessionResponse* const response_;
 };
 
+// What a worker says, as far as it can be true.
+double Seconds(double said) { return std::isfinite(said) && said > 0 ? said : 0; }
+
+// A worker's sessions and leases are its own: of a worker with a name, "NAME." stands before the
+// ids of its sessions' workers.
+bool IsOthers(const WorkTable& work, const Identity& caller, const std::string& session) {
+  if (caller.name.empty()) return false;
+  const std::string worker = work.WorkerOfSession(session);
+  return !worker.empty() && worker.rfind(caller.name + ".", 0) != 0;
+}
+
+absl::Status NoSession(const std::string& session) {
+  return MakeError(absl::StatusCode::kNotFound,
+                   {"SESSION_NOT_FOUND", session, "there is no such session", "open a new one"});
+}
+
 class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest> {
  public:
-  SubmitReactor(WorkTable* work, w1::SubmitUnitResultResponse* response)
-      : work_(work), response_(response) {
+  SubmitReactor(WorkTable* work, Identity caller, w1::SubmitUnitResultResponse* response)
+      : work_(work), caller_(std::move(caller)), response_(response) {
     StartRead(&request_);
   }
   void OnReadDone(bool ok) override {
     if (!ok) return Finish(ToGrpc(IsWhole() ? Submit() : Mismatch()));
     if (is_first_) {
       TakeHeader();
+      const std::string session = submission_.lease.substr(0, submission_.lease.find("/leases/"));
+      if (IsOthers(*work_, caller_, session)) return Finish(ToGrpc(NoSession(session)));
       // Nobody needs the rest of a result whose step is over.
       if (max_bytes_ == 0) return Finish(ToGrpc(Submit()));
     }
@@ -117,8 +136,8 @@ class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest
     submission_.step_number = request_.unit_key().step_number();
     submission_.unit = request_.unit_key().unit_index();
     submission_.digest = request_.result_digest().sha256();
-    submission_.cpu_seconds = request_.cpu_seconds();
-    submission_.run_seconds = request_.run_seconds();
+    submission_.cpu_seconds = Seconds(request_.cpu_seconds());
+    submission_.run_seconds = Seconds(request_.run_seconds());
     max_bytes_ = work_->MaxResultBytes(submission_.job, submission_.step_number);
   }
   bool IsWhole() const { return !is_first_ && Sha256Hex(submission_.bytes) == submission_.digest; }
@@ -136,6 +155,7 @@ class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest
   }
 
   WorkTable* const work_;
+  const Identity caller_;
   w1::SubmitUnitResultResponse* const response_;
   w1::SubmitUnitResultRequest request_;
   Submission submission_;
@@ -151,13 +171,16 @@ class WorkerService : public w1::WorkerService::CallbackService {
                                                 const w1::CreateWorkerSessionRequest* request,
                                                 w1::WorkerSession* response) override {
     return Answer(context, doors_, Guests::kWorkers, response,
-                  [&](const Identity&) { return OpenSession(*request); });
+                  [&](const Identity& caller) { return OpenSession(caller, *request); });
   }
   grpc::ServerUnaryReactor* SyncWorkerSession(grpc::CallbackServerContext* context,
                                               const w1::SyncWorkerSessionRequest* request,
                                               w1::SyncWorkerSessionResponse* response) override {
     const absl::StatusOr<Identity> caller = doors_.Admit(*context, Guests::kWorkers);
     if (!caller.ok()) return Reply(context, caller.status());
+    if (IsOthers(*work_, *caller, request->name())) {
+      return Reply(context, NoSession(request->name()));
+    }
     return new SyncReactor(work_, *request, response);
   }
   grpc::ServerReadReactor<w1::SubmitUnitResultRequest>* SubmitUnitResult(
@@ -166,21 +189,23 @@ class WorkerService : public w1::WorkerService::CallbackService {
     if (!caller.ok()) {
       return new Refused<grpc::ServerReadReactor<w1::SubmitUnitResultRequest>>(caller.status());
     }
-    return new SubmitReactor(work_, response);
+    return new SubmitReactor(work_, *caller, response);
   }
   grpc::ServerUnaryReactor* DeleteWorkerSession(grpc::CallbackServerContext* context,
                                                 const w1::DeleteWorkerSessionRequest* request,
                                                 google::protobuf::Empty*) override {
-    return Answer(context, doors_, Guests::kWorkers, [&](const Identity&) {
-      work_->CloseSession(request->name());
+    return Answer(context, doors_, Guests::kWorkers, [&](const Identity& caller) {
+      if (!IsOthers(*work_, caller, request->name())) work_->CloseSession(request->name());
       return absl::OkStatus();
     });
   }
 
  private:
-  absl::StatusOr<w1::WorkerSession> OpenSession(const w1::CreateWorkerSessionRequest& request) {
-    absl::StatusOr<std::string> name =
-        work_->OpenSession(request.worker_id(), request.slot_count(), request.unit_version());
+  absl::StatusOr<w1::WorkerSession> OpenSession(const Identity& caller,
+                                                const w1::CreateWorkerSessionRequest& request) {
+    const std::string prefix = caller.name.empty() ? "" : caller.name + ".";
+    absl::StatusOr<std::string> name = work_->OpenSession(
+        prefix + request.worker_id(), request.slot_count(), request.unit_version());
     if (!name.ok()) return name.status();
     w1::WorkerSession session;
     session.set_name(*name);

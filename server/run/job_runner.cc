@@ -93,7 +93,7 @@ absl::StatusOr<std::shared_ptr<const PatchSet>> JobRunner::PreparePatches(
     if (!patches.ok()) return patches.status();
     return std::make_shared<const PatchSet>(*std::move(patches));
   }
-  absl::StatusOr<Scene> scene = parts_.scenes->Load(record.scene());
+  absl::StatusOr<Scene> scene = parts_.scenes->Load(record.scene(), job.owner());
   if (!scene.ok()) return scene.status();
   absl::StatusOr<PatchSet> patches = BuildPatches(*scene, options);
   if (!patches.ok()) return patches.status();
@@ -101,6 +101,8 @@ absl::StatusOr<std::shared_ptr<const PatchSet>> JobRunner::PreparePatches(
   v1::Digest digest;
   digest.set_sha256(Sha256Hex(bytes));
   digest.set_size_bytes(static_cast<int64_t>(bytes.size()));
+  absl::Status room = parts_.holdings->CheckBytes(job.owner(), digest.size_bytes());
+  if (!room.ok()) return room;
   parts_.refs->Add(digest.sha256());
   absl::Status stored = parts_.blobs->Put(digest.sha256(), std::move(bytes));
   if (!stored.ok()) {
@@ -115,10 +117,19 @@ absl::Status JobRunner::RunPasses(Job& job, Journal& journal, Solver& solver,
                                   StepExecutor& executor) {
   bool is_published = false;
   double published_at_s = 0, cost_s = 0;
+  Progress charged = solver.MakeSnapshot().progress;
+  const auto on_step = [&](const Progress& progress) {
+    job.SetProgress(EncodeProgress(progress));
+    parts_.quotas->Charge(job.owner(), progress.rays - charged.rays,
+                          progress.cpu_seconds - charged.cpu_seconds);
+    charged = progress;
+    // The step after this one ends with it.
+    absl::Status left = parts_.quotas->CheckWork(job.owner());
+    if (!left.ok()) parts_.work->AbortJob(job.id(), left);
+  };
   absl::Status status;
   while (status.ok() && solver.stop_reason() == StopReason::kNone) {
-    status = solver.RunPass(
-        executor, [&](const Progress& progress) { job.SetProgress(EncodeProgress(progress)); });
+    status = solver.RunPass(executor, on_step);
     const double now_s = ToSeconds(parts_.clock().time_since_epoch());
     is_published = false;
     if (!status.ok() || (cost_s > 0 && now_s - published_at_s < kPublishCostFactor * cost_s)) {

@@ -12,6 +12,7 @@
 #include "server/base/clock.h"
 #include "server/blobs/blob_refs.h"
 #include "server/blobs/blob_store.h"
+#include "server/doors/holdings.h"
 #include "server/jobs/job.h"
 #include "server/jobs/job_store.h"
 #include "server/jobs/journal.h"
@@ -29,6 +30,8 @@ struct RunnerParts {
   RecordStore* records = nullptr;
   SceneStore* scenes = nullptr;
   JobStore* jobs = nullptr;
+  const Holdings* holdings = nullptr;
+  Quotas* quotas = nullptr;
   WorkTable* work = nullptr;
   int64_t max_patches = 0;
   JournalMode journal = JournalMode::kAuto;

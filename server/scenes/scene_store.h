@@ -1,6 +1,8 @@
 // Scenes: manifests of blobs that were parsed once and found good.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -13,6 +15,7 @@
 #include "server/base/record_store.h"
 #include "server/blobs/blob_refs.h"
 #include "server/blobs/blob_store.h"
+#include "server/doors/identity.h"
 
 namespace lambert::server {
 
@@ -24,19 +27,27 @@ class SceneStore {
   // Finds the scenes of an earlier run again. Call it before anything else.
   absl::Status Restore();
 
-  // FIELD_INVALID, BLOBS_MISSING, what LoadGltf refuses and what RecordStore::Commit fails with;
-  // then nothing is left behind.
-  absl::StatusOr<v1::Scene> Create(const v1::CreateSceneRequest& request);
-  // SCENE_NOT_FOUND.
-  absl::StatusOr<v1::Scene> Get(const std::string& name) const;
-  absl::StatusOr<Page<v1::Scene>> List(int page_size, const std::string& page_token) const;
+  // Makes a scene of `owner`, who has the blobs that `has` says. FIELD_INVALID, BLOBS_MISSING,
+  // SCENE_TOO_LARGE, what LoadGltf refuses and what RecordStore::Commit fails with; then nothing is
+  // left behind.
+  using HasBlob = std::function<bool(const std::string& sha256)>;
+  absl::StatusOr<v1::Scene> Create(const v1::CreateSceneRequest& request, const std::string& owner,
+                                   const HasBlob& has);
+  // A scene that the caller sees, its own before those of others. SCENE_NOT_FOUND.
+  absl::StatusOr<v1::Scene> Get(const std::string& name, const Identity& who) const;
+  // SCENE_NOT_FOUND where others have it alone.
+  absl::StatusOr<v1::Scene> GetOwn(const std::string& name, const std::string& owner) const;
+  absl::StatusOr<Page<v1::Scene>> List(int page_size, const std::string& page_token,
+                                       const Identity& who = {}) const;
   // SCENE_NOT_FOUND, and what RecordStore::Commit fails with: then the scene stays.
-  absl::Status Delete(const std::string& name);
-  // Parses a scene. SCENE_NOT_FOUND, BLOB_CORRUPT.
-  absl::StatusOr<Scene> Load(const std::string& name) const;
+  absl::Status Delete(const v1::Scene& scene);
+  // Parses a scene of `owner`. SCENE_NOT_FOUND, BLOB_CORRUPT.
+  absl::StatusOr<Scene> Load(const std::string& name, const std::string& owner) const;
+  // Adds the blobs that scenes of `owner` name, with their sizes.
+  void AddBlobsOf(const std::string& owner, std::map<std::string, int64_t>& blobs) const;
 
  private:
-  absl::Status CheckBlobs(const v1::Scene& scene) const;
+  absl::Status CheckBlobs(const v1::Scene& scene, const HasBlob& has) const;
   // Parses a scene to see that it is good; fills in warnings and time.
   absl::Status Examine(v1::Scene& scene) const;
   absl::StatusOr<Scene> Parse(const v1::Scene& scene) const;
@@ -46,7 +57,7 @@ class SceneStore {
   RecordStore* const records_;
   const SceneLimits limits_;
   mutable absl::Mutex mutex_;
-  std::map<std::string, v1::Scene> scenes_ ABSL_GUARDED_BY(mutex_);  // by name
+  std::map<std::string, v1::Scene> scenes_ ABSL_GUARDED_BY(mutex_);  // by KeyOf
 };
 
 }  // namespace lambert::server

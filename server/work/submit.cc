@@ -52,6 +52,12 @@ std::string WorkTable::WorkerOf(const std::string& lease) const {
   return found == state_.sessions.end() ? session + " (ended)" : found->second.worker_id;
 }
 
+std::string WorkTable::WorkerOfSession(const std::string& session) const {
+  absl::MutexLock lock(&mutex_);
+  auto found = state_.sessions.find(session);
+  return found == state_.sessions.end() ? "" : found->second.worker_id;
+}
+
 absl::StatusOr<SubmitOutcome> WorkTable::Repeated(const Submission& submission,
                                                   const std::string& worker, PublishedStep& step) {
   const UnitState& unit = state_.steps.at(submission.job).units[submission.unit];

@@ -1,5 +1,6 @@
 #include "server/work/work_table.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -37,6 +38,14 @@ absl::Status CheckWorker(const std::string& worker_id, int slots) {
   if (worker_id.empty() || worker_id.size() > kMaxWorkerIdLength) {
     return MakeError(absl::StatusCode::kInvalidArgument,
                      {"FIELD_INVALID", "worker_id", "is empty or longer than 128 characters",
+                      "give the worker another name"});
+  }
+  if (std::any_of(worker_id.begin(), worker_id.end(),
+                  [](unsigned char c) { return c <= ' ' || c > '~'; })) {
+    return MakeError(absl::StatusCode::kInvalidArgument,
+                     {"FIELD_INVALID", "worker_id",
+                      "has a character that is no ASCII letter, digit "
+                      "or sign",
                       "give the worker another name"});
   }
   if (slots < 1 || slots > kMaxSlots) {

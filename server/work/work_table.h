@@ -87,6 +87,8 @@ class WorkTable {
   void CancelSync(const std::string& session, const void* call);
   // Reopens the session's leases, without counting an attempt.
   void CloseSession(const std::string& session);
+  // Whose session it is, by worker_id; "" where there is none.
+  std::string WorkerOfSession(const std::string& session) const;
   // Most bytes that a result of this step may have; 0 where the step is over.
   int64_t MaxResultBytes(const std::string& job, int64_t step_number) const;
   // RESULT_INVALID: refused, the unit opens again. NONDETERMINISTIC_RESULT: the job's step fails.

@@ -126,7 +126,7 @@ TEST_P(AnyBlobStore, ABlobGoesWithItsLastReference) {
 TEST_P(AnyBlobStore, AnUploadedBlobThatNobodyNeedsGoesAfterAWhile) {
   BlobRefs refs(store_.get(), std::chrono::hours(1), clock_.clock());
   ASSERT_TRUE(Put(kHello).ok());
-  refs.NoteUpload(digest_);
+  refs.NoteUpload(digest_, "", 14);
   refs.DropIdle();
   EXPECT_TRUE(store_->Has(digest_));
   clock_.Advance(std::chrono::hours(2));
