@@ -82,7 +82,8 @@ class ServiceCalls {
   v1::SolveJob CreateJob(int64_t max_rays = 100'000, const std::string& id = "", int n = 2,
                          const std::string& method = "") {
     v1::Scene scene;
-    EXPECT_TRUE(CreateScene(ToGlb(MakeCornell(n)), &scene).ok());
+    const grpc::Status made = CreateScene(ToGlb(MakeCornell(n)), &scene);
+    EXPECT_TRUE(made.ok()) << made.error_message();
     v1::CreateSolveJobRequest request;
     request.set_scene(scene.name());
     request.set_solve_job_id(id);
