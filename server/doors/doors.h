@@ -18,10 +18,11 @@ namespace lambert::server {
 
 // Names of files, "" for none.
 struct DoorOptions {
-  std::string tls_cert, tls_key;  // PEM: the server's certificate with its chain, and its key
-  std::string tls_client_ca;      // PEM: who signs certificates of clients and workers
-  std::string tokens;             // token_file.h
-  bool insecure = false;          // true: listen anywhere, whoever may come
+  std::string tls_cert = {},
+              tls_key = {};        // PEM: the server's certificate with its chain, and its key
+  std::string tls_client_ca = {};  // PEM: who signs certificates of clients and workers
+  std::string tokens = {};         // token_file.h
+  bool insecure = false;           // true: listen anywhere, whoever may come
   std::function<void(const std::string&)> log = [](const std::string&) {};
 };
 
