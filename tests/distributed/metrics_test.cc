@@ -98,7 +98,7 @@ TEST(Metrics, OfARunningJobTellItsErrorAndItsWatchers) {
   EXPECT_GT(Value(metrics, "lambert_job_estimated_error" + label), 0) << metrics;
   EXPECT_GT(Value(metrics, "lambert_job_rays" + label), 0);
   EXPECT_GE(Value(metrics, "lambert_watchers"), 1);
-  EXPECT_GE(Value(metrics, "lambert_leases"), 1);
+  EXPECT_GE(Value(metrics, "lambert_leases_granted_total"), 1);
   context.TryCancel();
 }
 
