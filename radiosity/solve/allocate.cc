@@ -8,7 +8,8 @@ namespace {
 
 constexpr int64_t kUnitsPerStep = 32;           // enough to balance a dozen workers
 constexpr int64_t kMinUnitRays = 1 << 14;       // about 4 ms: more than an exchange costs
-constexpr int64_t kMaxUnitRays = 1 << 21;       // about half a second
+constexpr int64_t kMaxUnitRays = 1 << 18;       // about 50 ms; many are lent together
+constexpr int64_t kLongUnitRays = 1 << 24;      // about three seconds
 constexpr double kMaxVisitRays = 4294967295.0;  // ray numbers have 32 bits
 
 struct Share {
@@ -115,8 +116,10 @@ std::vector<WorkUnit> CutIntoUnits(const StepPlan& plan, uint64_t seed, uint32_t
 }
 
 int64_t UnitRays(int64_t step_rays, int64_t patch_count) {
-  // A result lists the patches that were hit: a unit should have more rays to trace than to report.
-  const int64_t least = std::max(kMinUnitRays, patch_count / 4);
+  // A result lists the patches that were hit: a unit should have more rays to trace than to report,
+  // and as many rays as patches unless it would run too long.
+  const int64_t least =
+      std::max({kMinUnitRays, std::min(patch_count, kLongUnitRays), patch_count / 4});
   return std::min(std::max(step_rays / kUnitsPerStep, least), std::max(kMaxUnitRays, least));
 }
 
