@@ -73,6 +73,8 @@ class Coordinator {
   absl::StatusOr<v1::SolveJob> CancelJob(const Identity& who, const std::string& name);
   // SCENE_IN_USE while a job that has not ended solves it.
   absl::Status DeleteScene(const Identity& who, const std::string& name);
+  // Lends no more work; results of what is lent are taken until all are there, or `grace` passed.
+  void Drain(Duration grace) { work_.Drain(grace); }
   // Ends held calls, steps and watchers; jobs stay as they are. What comes later is refused.
   void Shutdown();
   bool is_shutting_down() const { return stopping_.HasBeenNotified(); }

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <map>
@@ -35,6 +36,8 @@ int Fail(const absl::Status& status) {
   std::fprintf(stderr, "error: %s\n", std::string(status.message()).c_str());
   return 1;
 }
+// For results of the units that workers have: those take about half a second each.
+constexpr auto kDrainGrace = std::chrono::seconds(3);
 
 absl::StatusOr<std::unique_ptr<Coordinator>> StartCoordinator(const CoordinatorOptions& options,
                                                               const StoreOptions& store_options) {
@@ -84,8 +87,11 @@ int Run(CoordinatorOptions options, Places places, const sigset_t& signals) {
   serving = true;
   int signal = 0;
   sigwait(&signals, &signal);
-  options.log("stopping");
-  return lost ? 1 : 0;
+  options.log(lost ? "stopping" : "stopping; a second signal ends this at once");
+  if (lost) return 1;
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  coordinator->Drain(kDrainGrace);
+  return 0;
 }
 
 }  // namespace
@@ -121,6 +127,11 @@ int main(int argc, char** argv) {
   lambert::server::AddDoorOptions(app, places.doors, new_token);
   lambert::TelemetryOptions telemetry;
   lambert::AddTelemetryOptions(app, telemetry);
+  double worker_timeout_s = lambert::server::ToSeconds(options.work.session_expiry);
+  app.add_option("--worker-timeout", worker_timeout_s,
+                 "seconds of a worker's silence after which its units go to others")
+      ->check(CLI::Range(0.5, 3600.0))
+      ->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -130,6 +141,7 @@ int main(int argc, char** argv) {
     const absl::Status printed = lambert::server::PrintNewToken(places.doors.tokens, new_token);
     return printed.ok() ? 0 : lambert::server::Fail(printed);
   }
+  options.work.SetSessionExpiry(std::chrono::duration<double>(worker_timeout_s));
   // Before any thread starts, so that every thread inherits the mask and sigwait gets them.
   sigset_t signals;
   sigemptyset(&signals);

@@ -55,7 +55,8 @@ void Work(const std::string& server, const std::string& server_file,
     }
     worker = std::make_unique<lambert::worker::Worker>(*channel, options);
   } while (sigtimedwait(&signals, nullptr, &kLookAgain) < 0);
-  options.log("finishing what runs");
+  options.log("finishing what runs; a second signal ends this at once");
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 #include "worker/shooter_cache.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 #include <vector>
 
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
 #include "radiosity/shoot/options_codec.h"
+#include "worker/out_of_memory.h"
 
 namespace lambert::worker {
 
@@ -63,12 +65,14 @@ absl::StatusOr<PatchSet> ShooterCache::Patches(const std::string& sha256,
 }
 
 absl::StatusOr<std::shared_ptr<const Shooter>> ShooterCache::Make(
-    const std::string& sha256, int64_t size_bytes, const std::string& shoot_options) const {
+    const std::string& sha256, int64_t size_bytes, const std::string& shoot_options) const try {
   absl::StatusOr<ShootOptions> options = DecodeShootOptions(shoot_options);
   if (!options.ok()) return options.status();
   absl::StatusOr<PatchSet> patches = Patches(sha256, size_bytes);
   if (!patches.ok()) return patches.status();
   return make_(std::make_shared<const PatchSet>(*std::move(patches)), *options);
+} catch (const std::exception& error) {
+  return OutOfMemory(error);
 }
 
 }  // namespace lambert::worker

@@ -12,6 +12,7 @@
 
 #include "radiosity/shoot/unit.h"
 #include "worker/lease_book.h"
+#include "worker/out_of_memory.h"
 #include "worker/result_sender.h"
 #include "worker/server_link.h"
 #include "worker/session.h"
@@ -42,8 +43,8 @@ absl::StatusOr<Ran> RunUnit(ShooterCache& shooters, const v1::Lease& lease) try 
   if (!result.ok()) return result.status();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   return Ran{*std::move(result), took.count(), unit->RayCount()};
-} catch (const std::exception& error) {  // memory exhausted, at the worst
-  return absl::ResourceExhaustedError(error.what());
+} catch (const std::exception& error) {
+  return OutOfMemory(error);
 }
 
 }  // namespace

@@ -107,10 +107,12 @@ absl::StatusOr<SubmitOutcome> WorkTable::Settle(const Submission& submission, co
     counters_.rays += state_.steps.at(submission.job).units[submission.unit].rays;
     counters_.run_microseconds += Microseconds(submission.run_seconds);
     outcome = SubmitOutcome::kAccepted;
+    ++merging_;
   }
   if (auto lease = state_.leases.find(submission.lease); lease != state_.leases.end()) {
     SessionState& session = state_.sessions.at(lease->second.session);
     if (outcome.ok() && *outcome == SubmitOutcome::kAccepted) ++session.finished_units;
+    if (outcome.ok()) session.failures = 0;
     RemoveLease(state_, submission.lease, /*failed=*/false);
   }
   return outcome;
@@ -135,10 +137,12 @@ absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
     TellRevoked();
     Dispatch(calls);
   }
-  for (auto& call : calls) call();
+  MakeCalls(calls);
   if (outcome.ok() && *outcome == SubmitOutcome::kAccepted) {
     result->cpu_seconds = submission.cpu_seconds;
     claim->step->Merge(*result, claim->grain_count);
+    absl::MutexLock lock(&mutex_);
+    --merging_;
   }
   Count(outcome, counters_);
   counters_.merge_microseconds += Microseconds(ToSeconds(clock_() - began));

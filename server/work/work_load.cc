@@ -21,11 +21,11 @@ WorkLoad LoadOf(const WorkState& state) {
   WorkLoad load;
   for (const auto& [job, step] : state.steps) {
     const int64_t rays = QueuedRays(step);
-    auto pace = state.seconds_per_ray.find(job);
+    auto pace = state.paces.find(job);
     load.queued_rays += rays;
     load.queued_seconds +=
         static_cast<double>(rays) *
-        (pace == state.seconds_per_ray.end() ? kUnknownSecondsPerRay : pace->second);
+        (pace == state.paces.end() ? kUnknownSecondsPerRay : pace->second.median);
   }
   load.leases = static_cast<int>(state.leases.size());
   load.workers = static_cast<int>(state.sessions.size());

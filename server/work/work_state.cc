@@ -6,10 +6,17 @@
 namespace lambert::server {
 namespace {
 
-// Weight of the newest unit in a job's pace: the mean of about the last eight.
-constexpr double kPaceWeight = 0.125;
-// A worker that was frozen for a while must not make all others look slow.
-constexpr double kMaxPaceRatio = 4;
+// Units that a job's pace is the median of.
+constexpr size_t kPaceUnits = 15;
+
+void Learn(double seconds_per_ray, Pace& pace) {
+  pace.recent.push_back(seconds_per_ray);
+  if (pace.recent.size() > kPaceUnits) pace.recent.pop_front();
+  std::vector<double> sorted(pace.recent.begin(), pace.recent.end());
+  const auto middle = sorted.begin() + static_cast<ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  pace.median = *middle;
+}
 
 void RevokeAll(WorkState& state, UnitState& unit) {
   for (const std::string& lease : unit.leases) state.leases.at(lease).revoked = true;
@@ -62,11 +69,25 @@ void RemoveLease(WorkState& state, const std::string& lease, bool failed) {
   StepState& step = state.steps.at(held.unit.job);
   UnitState& unit = step.units[held.unit.unit];
   unit.leases.erase(lease);
-  if (failed) ++unit.attempts;
+  if (failed) {
+    ++unit.attempts;
+    unit.failed_on.insert(held.session);
+  }
   if (unit.leases.empty()) {
     step.leased.erase(held.unit.unit);
     step.open.push_front(held.unit.unit);
   }
+}
+
+void LetRest(WorkState& state, const std::string& lease, TimePoint now,
+             const WorkOptions& options) {
+  auto found = state.leases.find(lease);
+  if (found == state.leases.end()) return;
+  SessionState& session = state.sessions.at(found->second.session);
+  Duration rest = options.first_rest;
+  for (int i = 0; i < session.failures && rest < options.longest_rest; ++i) rest *= 2;
+  session.rests_until = now + std::min(rest, options.longest_rest);
+  ++session.failures;
 }
 
 void FinishUnit(WorkState& state, const UnitRef& ref, const std::string& digest,
@@ -80,10 +101,7 @@ void FinishUnit(WorkState& state, const UnitRef& ref, const std::string& digest,
   step.leased.erase(ref.unit);
   std::erase(step.open, ref.unit);
   if (unit.rays <= 0 || !(run_seconds > 0) || !std::isfinite(run_seconds)) return;
-  const double pace = run_seconds / static_cast<double>(unit.rays);
-  auto [known, is_new] = state.seconds_per_ray.try_emplace(ref.job, pace);
-  const double believed = std::min(pace, kMaxPaceRatio * known->second);
-  if (!is_new) known->second += kPaceWeight * (believed - known->second);
+  Learn(run_seconds / static_cast<double>(unit.rays), state.paces[ref.job]);
 }
 
 }  // namespace lambert::server

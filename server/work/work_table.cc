@@ -12,11 +12,6 @@ namespace {
 constexpr int kMaxSlots = 4096;
 constexpr size_t kMaxWorkerIdLength = 128;
 
-absl::Status ShuttingDown() {
-  return MakeError(absl::StatusCode::kUnavailable, {"SHUTTING_DOWN", "lambert-server",
-                                                    "the server is stopping", "try again later"});
-}
-
 absl::Status SessionNotFound(const std::string& session) {
   return MakeError(absl::StatusCode::kNotFound,
                    {"SESSION_NOT_FOUND", session, "there is no such session", "open a new one"});
@@ -54,10 +49,6 @@ absl::Status CheckWorker(const std::string& worker_id, int slots) {
                       "use 1 to " + std::to_string(kMaxSlots)});
   }
   return absl::OkStatus();
-}
-
-void MakeCalls(std::vector<std::function<void()>>& calls) {
-  for (auto& call : calls) call();
 }
 
 }  // namespace
@@ -211,6 +202,7 @@ void WorkTable::FailLease(const std::string& lease, const std::string& why) {
   if (found == state_.leases.end()) return;
   const LeaseState held = found->second;
   const std::string worker = WorkerOf(lease);
+  LetRest(state_, lease, clock_(), options_);
   RemoveLease(state_, lease, /*failed=*/true);
   ++counters_.leases_failed;
   Note("lease failed: " + why,
@@ -314,7 +306,7 @@ void WorkTable::AbortJob(const std::string& job, const absl::Status& status) {
 void WorkTable::ForgetJob(const std::string& job) {
   absl::MutexLock lock(&mutex_);
   aborted_.erase(job);
-  state_.seconds_per_ray.erase(job);
+  state_.paces.erase(job);
 }
 
 void WorkTable::Tick() {
@@ -331,18 +323,6 @@ void WorkTable::Tick() {
     notes.swap(notes_);
   }
   for (const LogLine& note : notes) options_.log(note);
-  MakeCalls(calls);
-}
-
-void WorkTable::Shutdown() {
-  Calls calls;
-  {
-    absl::MutexLock lock(&mutex_);
-    shutting_down_ = true;
-    for (auto& [job, step] : steps_) step->Abort(ShuttingDown());
-    for (auto& [name, exchange] : exchanges_) EndHeld(exchange, ShuttingDown(), calls);
-    for (auto& [name, session] : state_.sessions) session.waiting = false;
-  }
   MakeCalls(calls);
 }
 

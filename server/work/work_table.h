@@ -108,6 +108,9 @@ class WorkTable {
   // Ends silent sessions, answers calls held long enough, repeats late units. Call it often (50
   // ms).
   void Tick();
+  // Grants nothing any more: held and later calls for work get SHUTTING_DOWN, results are still
+  // taken. Blocks until no unit is leased, or `grace` (of real time) has passed.
+  void Drain(Duration grace);
   // Ends every step and every held call; later calls fail.
   void Shutdown();
 
@@ -128,12 +131,17 @@ class WorkTable {
   };
   using Calls = std::vector<std::function<void()>>;  // to be made without the lock
 
+  static absl::Status ShuttingDown();
+  static void MakeCalls(Calls& calls) {
+    for (auto& call : calls) call();
+  }
   void ApplyReports(const SyncRequest& request) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Dispatch(Calls& calls) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Answer(const std::string& session, std::vector<GrantedLease> leases, Calls& calls)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void EndHeld(Exchange& exchange, const absl::Status& status, Calls& calls)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void StopGranting(Calls& calls) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void EndSession(const std::string& session, bool failed, const std::string& why, Calls& calls)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void FailLease(const std::string& lease, const std::string& why)
@@ -170,6 +178,7 @@ class WorkTable {
   int64_t next_name_ ABSL_GUARDED_BY(mutex_);
   bool shutting_down_ ABSL_GUARDED_BY(mutex_) = false;
   std::vector<LogLine> notes_ ABSL_GUARDED_BY(mutex_);
+  int merging_ ABSL_GUARDED_BY(mutex_) = 0;  // results that are booked and not merged yet
   WorkState state_ ABSL_GUARDED_BY(mutex_);
   std::map<std::string, Exchange> exchanges_ ABSL_GUARDED_BY(mutex_);  // by session
   std::map<std::string, std::shared_ptr<PublishedStep>> steps_ ABSL_GUARDED_BY(mutex_);  // by job

@@ -3,12 +3,19 @@
 
 #include <grpcpp/grpcpp.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <fstream>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "lambert/v1/farm_service.grpc.pb.h"
 #include "tests/service/service_calls.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
@@ -30,6 +37,18 @@ class Farm : public ServiceCalls {
         LAMBERT_WORKER, "--server", address_, "--slots", std::to_string(slots), "--name",
         "worker-" + std::to_string(workers_.size())}));
   }
+  // A worker whose address space may grow by so much once it is idle.
+  void AddWorkerWithoutMemory(int64_t spare_bytes) {
+    AddWorker();
+    Process& worker = *workers_.back();
+    worker.WaitForError("at work");
+    std::ifstream statm("/proc/" + std::to_string(worker.id()) + "/statm");
+    int64_t pages = 0;
+    statm >> pages;
+    const auto bytes = static_cast<rlim_t>(pages * getpagesize() + spare_bytes);
+    const rlimit limit{bytes, bytes};
+    EXPECT_EQ(prlimit(worker.id(), RLIMIT_AS, &limit, nullptr), 0);
+  }
   Process& worker(int i) { return *workers_[i]; }
   Process& server() { return *server_; }
   const std::string& address() const { return address_; }
@@ -39,15 +58,37 @@ class Farm : public ServiceCalls {
     server_->Signal(SIGKILL);
     RestartServer();
   }
-  // Waits for the server's end and starts another in its place.
-  void RestartServer() {
-    server_->Wait();
+  // Waits for the server's end and starts another in its place. Returns the first one's exit code.
+  int RestartServer() {
+    const int code = server_->Wait();
     StartServer(address_, {});
+    return code;
   }
   // As on a disk that is full from now on: no file of the server may grow any more.
   void FillDisk() {
     const rlimit nothing = {0, RLIM_INFINITY};
     prlimit(server_->id(), RLIMIT_FSIZE, &nothing, nullptr);
+  }
+  // The worker as the server lists it; nothing where it has no session.
+  std::optional<v1::Worker> Listed(int worker) {
+    grpc::ClientContext context;
+    v1::ListWorkersResponse response;
+    v1::FarmService::NewStub(channel())->ListWorkers(&context, {}, &response);
+    for (const v1::Worker& listed : response.workers()) {
+      if (listed.name() == "workers/worker-" + std::to_string(worker)) return listed;
+    }
+    return std::nullopt;
+  }
+  // Blocks until the worker has a unit: a step is in its middle. False where the job ends before.
+  bool WaitUntilItHasAUnit(int worker, const std::string& job) {
+    return WaitUntil(job, [&] {
+      const std::optional<v1::Worker> listed = Listed(worker);
+      return listed.has_value() && listed->lease_count() > 0;
+    });
+  }
+  // Blocks until the worker has lost its session, or has one. False where the job ends before.
+  bool WaitUntilListed(int worker, bool listed, const std::string& job) {
+    return WaitUntil(job, [&] { return Listed(worker).has_value() == listed; });
   }
   // Blocks until workers have finished units of the job: it is in the middle.
   void WaitUntilUnderWay(const std::string& job, int passes = 0) {
@@ -63,6 +104,19 @@ class Farm : public ServiceCalls {
   }
 
  private:
+  bool WaitUntil(const std::string& job, const std::function<bool()>& holds) {
+    while (!holds()) {
+      grpc::ClientContext context;
+      v1::GetSolveJobRequest request;
+      request.set_name(job);
+      v1::SolveJob found;
+      if (!jobs()->GetSolveJob(&context, request, &found).ok() || found.has_end_time()) {
+        return false;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  }
   void StartServer(const std::string& listen, const ProcessOptions& environment) {
     std::vector<std::string> command = {LAMBERT_SERVER, "--listen", listen};
     command.insert(command.end(), server_arguments_.begin(), server_arguments_.end());

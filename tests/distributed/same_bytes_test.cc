@@ -6,33 +6,10 @@
 
 #include "local/local_service.h"
 #include "tests/distributed/farm.h"
-#include "tests/distributed/serial_solution.h"
+#include "tests/distributed/same_bytes.h"
 
 namespace lambert {
 namespace {
-
-constexpr int64_t kRays = 3'000'000;  // about a second of one core
-
-std::string SolveSerially(Method method) {
-  SolveOptions options;
-  options.shoot.method = method;
-  if (method == Method::kImportance) options.shoot.region = {"0"};
-  options.max_rays = kRays;
-  return SolveSerially(options);
-}
-
-const std::string& ExpectedBytes() {
-  static const std::string bytes = SolveSerially(Method::kAuto);
-  return bytes;
-}
-
-void ExpectSameBytes(const ServiceCalls::Watched& watched,
-                     const std::string& expected = ExpectedBytes()) {
-  EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
-  EXPECT_EQ(watched.ended.state(), v1::SolveJob::STATE_SUCCEEDED)
-      << watched.ended.error().message();
-  EXPECT_TRUE(watched.payload == expected);
-}
 
 struct Crew {
   int workers, slots;

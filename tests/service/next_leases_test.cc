@@ -42,13 +42,13 @@ TEST(NextLeases, FewUnitsGoToAsManyWorkersAsThereAre) {
   EXPECT_EQ(GrantsOf(grants, "b"), 1);
 }
 
-TEST(NextLeases, ManyUnitsFillSlotsAndOneMoreEach) {
+TEST(NextLeases, ManyUnitsFillSlotsAndAsManyLieReady) {
   WorkState state;
   AddWaiting(state, "a", 2);
   AddWaiting(state, "b", 1);
-  AddUnits(state, "job", 10);
+  AddUnits(state, "job", 20);
   const std::vector<Grant> grants = NextLeases(state, kNow, {});
-  EXPECT_EQ(GrantsOf(grants, "a"), 3);
+  EXPECT_EQ(GrantsOf(grants, "a"), 4);
   EXPECT_EQ(GrantsOf(grants, "b"), 2);
 }
 
@@ -108,8 +108,59 @@ TEST(NextLeases, JobsTakeTurns) {
   const std::vector<Grant> grants = NextLeases(state, kNow, {});
   const auto of_first = std::count_if(grants.begin(), grants.end(),
                                       [](const Grant& grant) { return grant.job == "first"; });
-  EXPECT_GE(of_first, 2);
-  EXPECT_LE(of_first, 3);
+  EXPECT_EQ(grants.size(), 8u);
+  EXPECT_EQ(of_first, 4);
+}
+
+class FailedUnit : public testing::Test {
+ protected:
+  FailedUnit() {
+    AddWaiting(state_, "weak", 1);
+    AddWaiting(state_, "strong", 1);
+    state_.sessions["strong"].waiting = false;
+    AddUnits(state_, "job", 1);
+    CutUnit(state_, "job", 1);
+    AddLease(state_, {"job", 0}, "weak", "lease", kNow);
+    LetRest(state_, "lease", kNow, options_);
+    RemoveLease(state_, "lease", /*failed=*/true);
+  }
+  std::vector<Grant> GrantsAfterRest() {
+    return NextLeases(state_, kNow + options_.first_rest, options_);
+  }
+  const WorkOptions options_;
+  WorkState state_;
+};
+
+TEST_F(FailedUnit, WaitsForAWorkerOnWhichItDidNotFail) {
+  EXPECT_TRUE(GrantsAfterRest().empty());
+  state_.sessions["strong"].waiting = true;
+  EXPECT_EQ(GrantsAfterRest(), (std::vector<Grant>{{"strong", "job", 0, 0}}));
+}
+
+TEST_F(FailedUnit, IsTriedAgainWhereItFailedWhenThereIsNobodyElse) {
+  state_.sessions["strong"].draining = true;
+  EXPECT_EQ(GrantsAfterRest(), (std::vector<Grant>{{"weak", "job", 0, 0}}));
+}
+
+TEST_F(FailedUnit, LeavesItsWorkerARestThatGrowsAndOneUnitAtATime) {
+  AddUnits(state_, "other", 9);
+  EXPECT_TRUE(NextLeases(state_, kNow + options_.first_rest / 2, options_).empty());
+  EXPECT_EQ(GrantsAfterRest().size(), 1u);
+  for (const Duration expected : {2 * options_.first_rest, 4 * options_.first_rest}) {
+    AddLease(state_, {"job", 0}, "weak", "lease", kNow);
+    LetRest(state_, "lease", kNow, options_);
+    RemoveLease(state_, "lease", /*failed=*/true);
+    EXPECT_EQ(state_.sessions["weak"].rests_until, kNow + expected);
+  }
+}
+
+TEST(Pace, IsTheMedianAndDeafToOneFrozenWorker) {
+  WorkState state;
+  AddUnits(state, "job", 3);
+  for (double seconds : {1.0, 1000.0, 2.0}) {
+    FinishUnit(state, {"job", CutUnit(state, "job", 1)}, "digest", "w", seconds);
+  }
+  EXPECT_DOUBLE_EQ(state.paces["job"].median, 2.0 / kRays);
 }
 
 class LateUnit : public testing::Test {
@@ -121,7 +172,7 @@ class LateUnit : public testing::Test {
     AddUnits(state_, "job", 1);
     CutUnit(state_, "job", 1);
     AddLease(state_, {"job", 0}, "frozen", "frozen/leases/1", kNow);
-    state_.seconds_per_ray["job"] = 1e-3;  // the unit should take a second
+    state_.paces["job"].median = 1e-3;  // the unit should take a second
   }
   WorkState state_;
 };
@@ -140,7 +191,7 @@ TEST_F(LateUnit, IsNeverRepeatedOnTheWorkerThatHoldsIt) {
 }
 
 TEST_F(LateUnit, WaitsForAFixedTimeWhileThePaceIsUnknown) {
-  state_.seconds_per_ray.clear();
+  state_.paces.clear();
   const WorkOptions options;
   EXPECT_TRUE(NextLeases(state_, kNow + options.straggler_unknown / 2, options).empty());
   EXPECT_EQ(NextLeases(state_, kNow + options.straggler_unknown, options).size(), 1u);

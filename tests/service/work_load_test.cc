@@ -11,7 +11,7 @@ TEST(WorkLoad, CountsWhatNobodyHoldsAtThePaceOfItsJob) {
   state.sessions["b"].slots = 2;
   AddStep(state, "known", 1, std::vector<int64_t>(5, 1000));
   AddStep(state, "new", 2, {500'000});
-  state.seconds_per_ray["known"] = 1e-3;
+  state.paces["known"].median = 1e-3;
   AddLease(state, {"known", CutUnit(state, "known", 2)}, "a", "a/leases/1", TimePoint());
   const WorkLoad load = LoadOf(state);
   EXPECT_EQ(load.queued_rays, 3 * 1000 + 500'000);

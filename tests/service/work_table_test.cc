@@ -217,6 +217,8 @@ TEST_F(WorkTableTest, AUnitThatFailsFiveTimesFailsTheStepAndSaysWhy) {
     ASSERT_EQ(worker.leases.size(), static_cast<size_t>(attempt + 1));
     worker.Fail(worker.leases.back().name, "out of memory");
     worker.Sync();
+    clock_.Advance(options_.longest_rest);
+    worker.Sync();
   }
   const absl::Status status = step->Wait().status();
   EXPECT_EQ(ReasonOf(status), "UNIT_ATTEMPTS_EXHAUSTED");

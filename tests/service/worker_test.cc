@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <new>
 #include <thread>
 
 #include "absl/synchronization/notification.h"
@@ -120,6 +121,17 @@ TEST_F(ShooterCacheTest, RefusesBytesThatAreNoPatchSet) {
   EXPECT_EQ(made_, 0);
 }
 
+TEST(ShooterCacheWithoutMemory, SaysSoEachTimeAndLeavesNobodyWaiting) {
+  ShooterCache cache(
+      [](const std::string&, int64_t) -> absl::StatusOr<std::string> { throw std::bad_alloc(); },
+      Shooter::Create, 2);
+  for (int i = 0; i < 2; ++i) {
+    const absl::Status status = cache.Get("digest", 1, EncodeShootOptions({})).status();
+    EXPECT_TRUE(absl::IsResourceExhausted(status)) << status;
+    EXPECT_NE(status.message().find("not enough memory"), absl::string_view::npos);
+  }
+}
+
 TEST_F(ShooterCacheTest, ForgetsTheLeastRecentlyUsed) {
   auto other = [](int n) { return EncodePatchSet(PatchesOf(MakeCornell(n))); };
   ASSERT_TRUE(Get(bytes_).ok());
@@ -193,6 +205,30 @@ TEST_F(WorkerTest, AResultThatLosesFluxIsRefusedUntilTheJobFails) {
   const Watched watched = Watch(CreateJob().name());
   EXPECT_EQ(watched.ended.state(), lambert::v1::SolveJob::STATE_FAILED);
   EXPECT_NE(watched.ended.error().message().find("worker-0"), std::string::npos);
+}
+
+// Each of these leaves the work to a sound worker, and no trace in the solution.
+TEST_F(WorkerTest, WorkersThatLieOrFailAlwaysChangeNothingBesideASoundOne) {
+  AddWorker();
+  const std::string expected = Watch(CreateJob(200'000, "sound", 2, "pmcr").name()).payload;
+  std::atomic<int> lies{0}, failures{0};
+  AddWorker(Faking([&lies](UnitResult& result) {
+    ++lies;
+    result.escaped[0] += 1;
+    return absl::OkStatus();
+  }));
+  AddWorker(Faking([&failures](UnitResult&) {
+    ++failures;
+    return absl::ResourceExhaustedError("no memory");
+  }));
+  for (int i = 0; i < 20 && (lies == 0 || failures == 0); ++i) {
+    const Watched watched = Watch(CreateJob(200'000, "", 2, "pmcr").name());
+    EXPECT_EQ(watched.ended.state(), lambert::v1::SolveJob::STATE_SUCCEEDED)
+        << watched.ended.error().message();
+    EXPECT_EQ(watched.payload, expected);
+  }
+  EXPECT_GT(lies, 0);
+  EXPECT_GT(failures, 0);
 }
 
 TEST_F(WorkerTest, AWorkerThatLeavesFinishesWhatRunsAndHandsBackTheRest) {

@@ -1,0 +1,47 @@
+// WorkTable: how work ends when the server stops.
+#include "absl/time/time.h"
+#include "radiosity/core/error.h"
+#include "server/work/work_table.h"
+
+namespace lambert::server {
+
+absl::Status WorkTable::ShuttingDown() {
+  return MakeError(absl::StatusCode::kUnavailable, {"SHUTTING_DOWN", "lambert-server",
+                                                    "the server is stopping", "try again later"});
+}
+
+void WorkTable::StopGranting(Calls& calls) {
+  shutting_down_ = true;
+  for (auto& [name, exchange] : exchanges_) EndHeld(exchange, ShuttingDown(), calls);
+  for (auto& [name, session] : state_.sessions) session.waiting = false;
+}
+
+void WorkTable::Drain(Duration grace) {
+  Calls calls;
+  {
+    absl::MutexLock lock(&mutex_);
+    StopGranting(calls);
+  }
+  MakeCalls(calls);
+  auto settled = [this]() ABSL_SHARED_LOCKS_REQUIRED(mutex_) {
+    if (merging_ > 0) return false;
+    for (const auto& [job, step] : state_.steps) {
+      if (!step.leased.empty()) return false;
+    }
+    return true;
+  };
+  absl::MutexLock lock(&mutex_);
+  mutex_.AwaitWithTimeout(absl::Condition(&settled), absl::FromChrono(grace));
+}
+
+void WorkTable::Shutdown() {
+  Calls calls;
+  {
+    absl::MutexLock lock(&mutex_);
+    StopGranting(calls);
+    for (auto& [job, step] : steps_) step->Abort(ShuttingDown());
+  }
+  MakeCalls(calls);
+}
+
+}  // namespace lambert::server
