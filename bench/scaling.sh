@@ -23,8 +23,7 @@ farms() { # SHARDS PATCHES NODES...
   done
 } >"$out/scaling.csv"
 
-gnuplot - "$out" <<'GNUPLOT'
-out = ARG1
+gnuplot -e "out='$out'" - <<'GNUPLOT'
 set datafile separator ','
 set terminal pngcairo size 900,600 font 'sans,11'
 set output out.'/scaling.png'
@@ -33,7 +32,7 @@ set xlabel 'nodes of 16 cores'
 set ylabel 'speed, in nodes without any loss'
 set key left top
 set grid
-set yrange [0.5:1000]
+set yrange [0.5:100]
 curve(patches, shards) = sprintf("< awk -F, '$1 == %d && $3 == %d' %s/scaling.csv", shards, patches, out)
 plot x with lines dashtype 3 lc 'gray' title 'no loss', \
   curve(1e5, 1) using 2:($2*$9) with linespoints lc 1 title '1e5 patches', \
