@@ -23,7 +23,8 @@ constexpr double kRounding = 0x1p-24;
 constexpr double kLeastWidth = 4 * kRounding;
 
 // Planes are put in cells by the components of their unit normal and their distance from the
-// origin. Rounding moves those of patches over a thousandth of the diagonal by less than the slack.
+// lowest corner. Rounding moves those of patches over a thousandth of the diagonal by less than the
+// slack.
 constexpr double kCells = 120, kSlack = 1e-4;  // of each number from 0 to 1
 constexpr double kMiddleCell = 128.5;          // of 0, in its middle
 constexpr int kCellBits = 8, kPatchBits = 31;
@@ -49,8 +50,17 @@ Vec3 UnitNormal(const Corners& corners) {
   return normal / std::sqrt(Dot(normal, normal));
 }
 
-Corners InDiagonals(const Corners& corners_m, double per_m) {
-  return {corners_m[0] * per_m, corners_m[1] * per_m, corners_m[2] * per_m};
+// Places are measured from the scene's lowest corner: its origin may be far away, in the middle of
+// what was left out.
+struct Frame {
+  Vec3 low_m;
+  double per_m;
+};
+
+Corners InDiagonals(const Corners& corners_m, const Frame& frame) {
+  Corners corners = corners_m;
+  for (Vec3& p : corners) p = (p - frame.low_m) * frame.per_m;
+  return corners;
 }
 
 Bounds BoundsOf(const Corners& corners) {
@@ -88,11 +98,11 @@ bool Overlap(const Corners& a, const Corners& b, Vec3 normal) {
 
 // The cells that the planes of patches are in, with their patches in ascending order:
 // cell << kPatchBits | patch. A plane near a border is in each of its cells.
-std::vector<uint64_t> SortByPlane(const PatchSet& patches, double per_m) {
+std::vector<uint64_t> SortByPlane(const PatchSet& patches, const Frame& frame) {
   std::vector<uint64_t> entries;
   entries.reserve(patches.corners.size());
   for (PatchIndex i = 0; i < patches.size(); ++i) {
-    const Corners corners = InDiagonals(patches.corners[i], per_m);
+    const Corners corners = InDiagonals(patches.corners[i], frame);
     if (IsTooSmall(corners)) continue;
     const Vec3 normal = UnitNormal(corners);
     std::array<uint64_t, 16> cells = {0};
@@ -113,8 +123,9 @@ std::vector<uint64_t> SortByPlane(const PatchSet& patches, double per_m) {
 }  // namespace
 
 CoplanarOverlaps FindCoplanarOverlaps(const PatchSet& patches) {
-  const double per_m = 1 / BoundsOf(patches).Diagonal();
-  const std::vector<uint64_t> entries = SortByPlane(patches, per_m);
+  const Bounds scene = BoundsOf(patches);
+  const Frame frame{scene.low, 1 / scene.Diagonal()};
+  const std::vector<uint64_t> entries = SortByPlane(patches, frame);
   CoplanarOverlaps found;
   std::vector<bool> overlaps(patches.corners.size());
   std::vector<PatchIndex> members;  // of one cell
@@ -141,7 +152,7 @@ CoplanarOverlaps FindCoplanarOverlaps(const PatchSet& patches) {
     }
     if (members.size() == 1) continue;
     for (PatchIndex member : members) {
-      corners.push_back(InDiagonals(patches.corners[member], per_m));
+      corners.push_back(InDiagonals(patches.corners[member], frame));
       boxes.push_back(BoundsOf(corners.back()));
     }
     ForEachMeetingPair(boxes, kRounding, check);

@@ -67,6 +67,15 @@ TEST(CoplanarOverlap, WhatIsTooSmallForANormalMeetsNothing) {
   EXPECT_EQ(CountIn(Floor().Quad({0, 0, 1}, {1e30, 0, 0}, {0, 1e30, 0}, kGray)), 0);
 }
 
+TEST(CoplanarOverlap, TheOriginMayBeFarAway) {
+  PatchSet patches =
+      PatchesOf(Floor().Quad({0.2, 0.2, 0}, {0.6, 0, 0}, {0, 0.6, 0}, kGray, 1, "rug").Make());
+  for (auto& corners : patches.corners) {
+    for (Vec3& p : corners) p = p + Vec3{-0x1p20, 0x1p20, 0x1p20};
+  }
+  EXPECT_EQ(FindCoplanarOverlaps(patches).patches, 4);
+}
+
 // Corners are rounded to float32 after they are turned, as exporters do.
 TEST(CoplanarOverlap, RugsAreFoundAndNeighboursAreNotHoweverTheSceneIsTurnedAndScaled) {
   std::mt19937 random(2);
