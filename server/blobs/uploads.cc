@@ -135,14 +135,21 @@ void Uploads::DropIdle() {
 
 void Uploads::DropOldest() {
   TimePoint oldest = TimePoint::max();
+  std::string owner;  // who has most of them
   {
     absl::MutexLock lock(&mutex_);
     if (static_cast<int>(entries_.size()) <= limits_.count) return;
+    std::map<std::string, int> counts;
     for (const auto& [key, entry] : entries_) {
-      if (entry.partial != nullptr) oldest = std::min(oldest, entry.last_use);
+      if (++counts[entry.owner] > counts[owner]) owner = entry.owner;
+    }
+    for (const auto& [key, entry] : entries_) {
+      if (entry.partial != nullptr && entry.owner == owner) {
+        oldest = std::min(oldest, entry.last_use);
+      }
     }
   }
-  Drop([&](const Entry& entry) { return entry.last_use <= oldest; });
+  Drop([&](const Entry& entry) { return entry.owner == owner && entry.last_use <= oldest; });
 }
 
 void Uploads::Drop(const std::function<bool(const Entry&)>& is_dropped) {

@@ -112,6 +112,33 @@ TEST_P(AnyBlobStore, TheOldestUploadGivesWayWhereThereAreTooMany) {
   EXPECT_EQ(*uploads.CommittedSize(digest_, 14), 0);
 }
 
+TEST_P(AnyBlobStore, WhoUploadsMostGivesWay) {
+  Uploads uploads(store_.get(), {.count = 2}, clock_.clock());
+  EXPECT_TRUE(uploads.Write(digest_, 14, 0, "hello, ", "alice").ok());
+  for (const std::string other : {"one", "two", "three"}) {
+    clock_.Advance(std::chrono::seconds(1));
+    EXPECT_TRUE(uploads.Write(Sha256Hex(other), 7, 0, other, "bob").ok());
+  }
+  EXPECT_EQ(*uploads.CommittedSize(digest_, 14, "alice"), 7);
+  EXPECT_EQ(*uploads.CommittedSize(digest_, 14, "bob"), 0) << "each has its own";
+  EXPECT_EQ(uploads.BytesOf("alice"), 7);
+}
+
+TEST_P(AnyBlobStore, WhatTwoUploadedStaysUntilNeitherNeedsIt) {
+  BlobRefs refs(store_.get(), std::chrono::hours(1), clock_.clock());
+  ASSERT_TRUE(Put(kHello).ok());
+  refs.NoteUpload(digest_, "alice", 14);
+  refs.NoteUpload(digest_, "bob", 14);
+  refs.Add(digest_);
+  refs.ForgetUpload(digest_, "alice");
+  EXPECT_TRUE(refs.UploadsOf("alice").empty());
+  refs.Release(digest_);
+  EXPECT_TRUE(store_->Has(digest_));
+  EXPECT_EQ(refs.UploadsOf("bob").at(digest_), 14);
+  refs.ForgetUpload(digest_, "bob");
+  EXPECT_FALSE(store_->Has(digest_));
+}
+
 TEST_P(AnyBlobStore, ABlobGoesWithItsLastReference) {
   BlobRefs refs(store_.get(), std::chrono::hours(1), clock_.clock());
   ASSERT_TRUE(Put(kHello).ok());
