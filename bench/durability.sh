@@ -4,7 +4,8 @@
 # 1. The time of a job, from its creation to its end, with --journal off, auto and every, turn by turn; a line a
 #    round, and the median of the ratios to off.
 # 2. ROUNDS times: the server is killed (kill -9) in the middle of the job and started again; seconds from that
-#    start until it listens, until the job goes on (and at which step), and until a worker has a lease.
+#    start until it listens, until the job goes on (and at which step), and until the worker is back in a session, which leases to it what is
+#    open at once.
 # Needs the release build (./run makes it).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -27,7 +28,7 @@ serve() { # ADDRESS MODE LOG: sets server and address
   rm -f "$3" # of the server before
   "$bin/server/lambert-server" --listen "$1" --data "$work/data" --journal "$2" 2>"$3" &
   server=$!
-  until address=$(grep -om1 'on 127.0.0.1:[0-9]*' "$3"); do sleep 0.01; done
+  until address=$(grep -som1 'on 127.0.0.1:[0-9]*' "$3"); do sleep 0.01; done
   address=${address#on }
 }
 
@@ -36,7 +37,7 @@ begin() { # MODE: a server on an empty folder, a worker, and a job; sets job
   serve 127.0.0.1:0 "$1" "$work/log"
   "$bin/worker/lambert-worker" --server "$address" --slots 2 2>"$work/worker" &
   worker=$!
-  until grep -q 'at work' "$work/worker"; do sleep 0.01; done
+  until grep -sq 'at work' "$work/worker"; do sleep 0.01; done
   job=$("$bin/app/lambert" submit "$scene" --server "$address" --max-rays "$rays" "${options[@]}" 2>/dev/null)
 }
 
@@ -56,7 +57,7 @@ for ((round = 1; round <= rounds; ++round)); do
     [[ $mode == off ]] && off=$took
     ratio=$(awk "BEGIN { printf \"%.3f\", $took / $off }")
     echo "$ratio" >>"$work/$mode.ratios"
-    line+="$mode $took s (ratio $ratio, $(grep -o 'kept [0-9].*' "$work/log")); "
+    line+="$mode $took s (ratio $ratio, $(grep -o 'kept [0-9].* in [0-9.]* s' "$work/log")); "
   done
   echo "${line%; }"
 done
@@ -72,9 +73,9 @@ for ((round = 1; round <= rounds; ++round)); do
   listens=$(now)
   until grep -q 'goes on at' "$work/log2"; do sleep 0.01; done
   goes_on=$(now)
-  until "$bin/app/lambert" workers --server "$address" --json 2>/dev/null | grep -qE '"leases": *[1-9]'; do sleep 0.01; done
-  leased=$(now)
+  until (($(grep -c 'at work' "$work/worker") > 1)); do sleep 0.01; done
+  back=$(now)
   stop
-  awk "BEGIN { printf \"killed: listens after %.2f s, goes on after %.2f s, first lease seen after %.2f s; \", $listens - $began, $goes_on - $began, $leased - $began }"
-  grep -o 'goes on at.*' "$work/log2"
+  awk "BEGIN { printf \"killed: listens after %.2f s, goes on after %.2f s, has its worker back after %.2f s; \", $listens - $began, $goes_on - $began, $back - $began }"
+  grep -o 'goes on at.* journal' "$work/log2"
 done

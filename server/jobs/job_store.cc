@@ -176,8 +176,12 @@ absl::Status JobStore::Delete(const std::string& name, const Identity& who) {
     }
     job = found->second;
   }
-  absl::Status gone =
-      records_->Commit({{kJobs, job->id(), std::nullopt}, {kSnapshots, job->id(), std::nullopt}});
+  std::vector<RecordChange> changes;
+  // A resume point is there where a full disk kept the job's end from being written.
+  for (const char* kind : {kJobs, kSnapshots, kResumePoints}) {
+    changes.push_back({kind, job->id(), std::nullopt});
+  }
+  absl::Status gone = records_->Commit(changes);
   if (!gone.ok()) return gone;
   {
     absl::MutexLock lock(&mutex_);

@@ -1,5 +1,6 @@
 #include "server/jobs/journal.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "radiosity/core/digest.h"
@@ -46,10 +47,11 @@ absl::StatusOr<std::string> Journal::Checkpoint() const {
 }
 
 bool Journal::IsPast(const WorkUnit& unit) const {
-  if (point_.steps().empty()) return true;
-  const store::v1::FinishedStep& last = *point_.steps().rbegin();
-  return std::pair<int64_t, int64_t>(unit.pass, unit.step) >
-         std::pair<int64_t, int64_t>(last.pass(), last.step());
+  // Not in order: a step that was left out is added when it is shot again.
+  return std::none_of(point_.steps().begin(), point_.steps().end(), [&](const auto& step) {
+    return std::pair<int64_t, int64_t>(unit.pass, unit.step) <=
+           std::pair<int64_t, int64_t>(step.pass(), step.step());
+  });
 }
 
 std::optional<UnitResult> Journal::Find(const std::vector<WorkUnit>& units,

@@ -164,6 +164,21 @@ TEST_F(ServerTest, AServerThatIsKilledAndStartedAgainIsGoneOnWith) {
   EXPECT_EQ(Read("here/patches.csv"), Read("out/patches.csv"));
 }
 
+TEST_F(ServerTest, AClientThatIsKilledLeavesItsJobToWhoeverComes) {
+  StartServer();
+  StartWorker();
+  const auto bake =
+      Start(There({"bake", "room.glb", "-o", "out", "--max-rays", "20M", "--progress", "plain"}));
+  ASSERT_NE(bake->WaitForError("error "), std::string::npos) << bake->error();
+  bake->Signal(SIGKILL);
+  bake->Wait();
+  const std::string job = Json::parse(Run(There({"jobs", "--json"})).output)[0]["job"];
+  EXPECT_EQ(Run(There({"watch", job})).exit_code, 0);
+  EXPECT_EQ(Run(There({"fetch", job, "-o", "out"})).exit_code, 0);
+  ASSERT_EQ(Run({"bake", "room.glb", "-o", "here", "--max-rays", "20M"}).exit_code, 0);
+  EXPECT_EQ(Read("here/patches.csv"), Read("out/patches.csv"));
+}
+
 TEST_F(ServerTest, AServerThatStaysAwayEndsWith4AndSaysHowToGoOn) {
   StartServer();
   StartWorker();

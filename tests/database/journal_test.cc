@@ -106,6 +106,16 @@ TEST_F(JournalOf, StepsThatTakeLittleMoreThanKeepingThemAreNotKeptButForTheFirst
   }
 }
 
+TEST_F(JournalOf, AStepThatWasLeftOutIsShotAndThoseAfterItAreAnswered) {
+  Run(Step(0, 0), JournalMode::kOff).IgnoreError();
+  Run(Step(0, 1)).IgnoreError();
+  Restart();
+  for (uint32_t step = 0; step < 3; ++step) Run(Step(0, step)).IgnoreError();
+  EXPECT_EQ(inner.shot, 4);
+  EXPECT_EQ(log.find("goes on at pass 0, step 0"), std::string::npos) << log;
+  EXPECT_NE(log.find("goes on at pass 0, step 2"), std::string::npos) << log;
+}
+
 TEST_F(JournalOf, OtherUnitsOfAStepAreShot) {
   Run(Step(0, 0, 10)).IgnoreError();
   Restart();

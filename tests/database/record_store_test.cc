@@ -97,6 +97,12 @@ TEST(OpenStores, RefusesASecondServerUntilTheFirstHasEnded) {
   EXPECT_TRUE(OpenStores({folder.path(), {}}).ok());
 }
 
+TEST(OpenStores, RefusesADatabaseThatItCannotUse) {
+  TemporaryFolder folder;
+  EXPECT_EQ(ReasonOf(OpenStores({folder.path(), "mysql://x"}).status()), "FIELD_INVALID");
+  EXPECT_EQ(ReasonOf(OpenStores({"", "postgresql://x"}).status()), "FIELD_INVALID");
+}
+
 TEST(NullRecordStore, KeepsNothing) {
   auto records = MakeNullRecordStore();
   EXPECT_FALSE(records->keeps());

@@ -4,6 +4,7 @@
 #include "radiosity/core/digest.h"
 #include "server/database/open_stores.h"
 #include "server/database/sqlite_record_store.h"
+#include "server/jobs/journal.h"
 #include "tests/service/service_fixture.h"
 #include "tests/support/temporary_folder.h"
 
@@ -65,6 +66,28 @@ TEST_F(Restart, DropsBlobsThatNobodyNeedsOnceTheyAreOld) {
   EXPECT_FALSE(coordinator_->blobs().Has(orphan));
   EXPECT_TRUE(coordinator_->blobs().Has(ended.patch_set_digest().sha256()));
   EXPECT_TRUE(coordinator_->blobs().Has(ended.latest_snapshot().payload_digest().sha256()));
+}
+
+TEST_F(Restart, FindsNothingOfAJobThatWasDeleted) {
+  StartOnFolder();
+  AddWorker();
+  const std::string job = Watch(CreateJob(1000, "a").name()).ended.name();
+  Stop();
+  // As where a full disk kept the job's end from being written.
+  ASSERT_TRUE((*server::OpenSqliteRecordStore(folder_.path() + "/lambert.db"))
+                  ->Commit({{server::kResumePoints, "a", ""}})
+                  .ok());
+  StartOnFolder();
+  v1::DeleteSolveJobRequest request;
+  request.set_name(job);
+  google::protobuf::Empty empty;
+  grpc::ClientContext context;
+  ASSERT_TRUE(jobs()->DeleteSolveJob(&context, request, &empty).ok());
+  Stop();
+  auto records = *server::OpenSqliteRecordStore(folder_.path() + "/lambert.db");
+  for (const char* kind : {"jobs", "snapshots", "resume"}) {
+    EXPECT_TRUE(records->LoadAll(kind)->empty()) << kind;
+  }
 }
 
 TEST_F(Restart, EndsWithoutHarmWhereAnotherHasTakenOver) {

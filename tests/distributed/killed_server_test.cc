@@ -20,7 +20,7 @@ namespace {
 constexpr int64_t kRays = 1'500'000;  // some half a second of one core
 
 SolveOptions Wanted(uint64_t seed) {
-  constexpr Method kMethods[] = {Method::kPhsHier, Method::kAuto, Method::kPhsAlpha};
+  constexpr Method kMethods[] = {Method::kPhsHier, Method::kPmcr, Method::kPhsAlpha};
   SolveOptions options;
   options.shoot.method = kMethods[seed % 3];
   options.seed = seed;
