@@ -1,10 +1,13 @@
-// Sends results while the slots go on with the next units.
+// Sends results while the slots go on with the next units. Those that wait meanwhile travel as one,
+// their sum: a busy link or coordinator gets fewer and denser results.
 #pragma once
 
 #include <deque>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "absl/status/statusor.h"
 #include "absl/synchronization/mutex.h"
 #include "absl/synchronization/notification.h"
 #include "lambert/worker/v1/worker_service.pb.h"
@@ -35,8 +38,15 @@ class ResultSender {
     UnitResult result;
     double run_seconds = 0;
   };
+  using Outcome = v1::SubmitUnitResultResponse::Outcome;
   void Work();
+  // The items that wait and are of the step of the first one.
+  std::vector<Item> TakeBatch() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void SendAll(const std::vector<Item>& items);
   void SendOne(const Item& item);
+  // Offers a result until it is answered, or it is of no use to try again.
+  absl::StatusOr<Outcome> Offer(v1::SubmitUnitResultRequest header, const UnitResult& result);
+  void LogRefusal(const absl::Status& status, const Item& item) const;
 
   ServerLink* const link_;
   LeaseBook* const book_;
@@ -44,6 +54,7 @@ class ResultSender {
   absl::Notification stop_retrying_;
   absl::Mutex mutex_;
   std::deque<Item> items_ ABSL_GUARDED_BY(mutex_);
+  size_t sending_ ABSL_GUARDED_BY(mutex_) = 0;  // items
   bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };

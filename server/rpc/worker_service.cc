@@ -32,7 +32,7 @@ w1::Lease Encode(const GrantedLease& granted) {
   lease.mutable_unit_key()->set_solve_job(kJobPrefix + setup.job);
   lease.mutable_unit_key()->set_step_number(granted.step->number());
   lease.mutable_unit_key()->set_unit_index(granted.unit);
-  lease.set_unit(EncodeUnit(granted.step->Unit(granted.first_grain, granted.grain_count)));
+  lease.set_unit(EncodeUnit(granted.step->Unit({granted.grains})));
   lease.mutable_patch_set_digest()->set_sha256(setup.patch_set_sha256);
   lease.mutable_patch_set_digest()->set_size_bytes(setup.patch_set_bytes);
   lease.set_shoot_options(setup.shoot_options);
@@ -47,6 +47,8 @@ w1::SubmitUnitResultResponse::Outcome Encode(SubmitOutcome outcome) {
       return w1::SubmitUnitResultResponse::OUTCOME_DUPLICATE;
     case SubmitOutcome::kObsolete:
       return w1::SubmitUnitResultResponse::OUTCOME_OBSOLETE;
+    case SubmitOutcome::kSplit:
+      return w1::SubmitUnitResultResponse::OUTCOME_SPLIT;
   }
   return w1::SubmitUnitResultResponse::OUTCOME_UNSPECIFIED;
 }
@@ -113,8 +115,10 @@ class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest
     if (!ok) return Finish(ToGrpc(IsWhole() ? Submit() : Mismatch()));
     if (is_first_) {
       TakeHeader();
-      const std::string session = submission_.lease.substr(0, submission_.lease.find("/leases/"));
-      if (IsOthers(*work_, caller_, session)) return Finish(ToGrpc(NoSession(session)));
+      for (const SubmittedUnit& unit : submission_.units) {
+        const std::string session = unit.lease.substr(0, unit.lease.find("/leases/"));
+        if (IsOthers(*work_, caller_, session)) return Finish(ToGrpc(NoSession(session)));
+      }
       // Nobody needs the rest of a result whose step is over.
       if (max_bytes_ == 0) return Finish(ToGrpc(Submit()));
     }
@@ -130,21 +134,26 @@ class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest
  private:
   void TakeHeader() {
     is_first_ = false;
-    submission_.lease = request_.lease();
     const std::string& job = request_.unit_key().solve_job();
     if (job.rfind(kJobPrefix, 0) == 0) submission_.job = job.substr(sizeof(kJobPrefix) - 1);
     submission_.step_number = request_.unit_key().step_number();
-    submission_.unit = request_.unit_key().unit_index();
-    submission_.digest = request_.result_digest().sha256();
+    digest_ = request_.result_digest().sha256();
     submission_.cpu_seconds = Seconds(request_.cpu_seconds());
-    submission_.run_seconds = Seconds(request_.run_seconds());
+    for (const w1::CombinedUnit& unit : request_.combined_units()) {
+      submission_.units.push_back(
+          {unit.lease(), unit.unit_index(), unit.result_sha256(), Seconds(unit.run_seconds())});
+    }
+    if (submission_.units.empty()) {
+      submission_.units.push_back({request_.lease(), request_.unit_key().unit_index(), digest_,
+                                   Seconds(request_.run_seconds())});
+    }
     max_bytes_ = work_->MaxResultBytes(submission_.job, submission_.step_number);
   }
-  bool IsWhole() const { return !is_first_ && Sha256Hex(submission_.bytes) == submission_.digest; }
+  bool IsWhole() const { return !is_first_ && Sha256Hex(submission_.bytes) == digest_; }
   absl::Status Mismatch() const {
     return MakeError(
         absl::StatusCode::kInvalidArgument,
-        {"DIGEST_MISMATCH", submission_.lease,
+        {"DIGEST_MISMATCH", is_first_ ? "lease" : submission_.units[0].lease,
          "the result that arrived is not the one that was announced", "send it again"});
   }
   absl::Status Submit() {
@@ -159,6 +168,7 @@ class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest
   w1::SubmitUnitResultResponse* const response_;
   w1::SubmitUnitResultRequest request_;
   Submission submission_;
+  std::string digest_;  // that was announced
   int64_t max_bytes_ = 0;
   bool is_first_ = true;
 };

@@ -11,30 +11,32 @@ PublishedStep::PublishedStep(WorkSetup setup, int64_t number, std::vector<WorkUn
   for (const WorkUnit& grain : grains_) rays_ += grain.RayCount();
 }
 
-WorkUnit PublishedStep::Unit(int first_grain, int grain_count) const {
-  WorkUnit unit = grains_[first_grain];
-  for (int i = first_grain + 1; i < first_grain + grain_count; ++i) {
-    unit.visits.insert(unit.visits.end(), grains_[i].visits.begin(), grains_[i].visits.end());
+WorkUnit PublishedStep::Unit(const std::vector<GrainRange>& grains) const {
+  WorkUnit unit = grains_[grains.front().first];
+  unit.visits.clear();
+  for (const GrainRange& range : grains) {
+    for (int i = range.first; i < range.first + range.count; ++i) {
+      unit.visits.insert(unit.visits.end(), grains_[i].visits.begin(), grains_[i].visits.end());
+    }
   }
   return unit;
 }
 
-absl::StatusOr<UnitResult> PublishedStep::Check(int first_grain, int grain_count,
+absl::StatusOr<UnitResult> PublishedStep::Check(const std::vector<GrainRange>& grains,
                                                 const std::string& worker,
                                                 const std::string& bytes) const {
   absl::StatusOr<UnitResult> result = DecodeUnitResult(bytes, setup_.patch_count);
-  absl::Status status =
-      result.ok() ? CheckLedger(Unit(first_grain, grain_count), *result) : result.status();
+  absl::Status status = result.ok() ? CheckLedger(Unit(grains), *result) : result.status();
   if (status.ok()) return result;
   return MakeError(absl::StatusCode::kInvalidArgument,
                    {"RESULT_INVALID", "worker " + worker + ", a unit of " + setup_.job,
                     std::string(status.message()), "check that machine's memory and programs"});
 }
 
-void PublishedStep::Merge(const UnitResult& result, int grain_count) {
+void PublishedStep::Merge(const UnitResult& result, const std::vector<GrainRange>& grains) {
   absl::MutexLock lock(&mutex_);
   MergeResult(result, merged_);
-  merged_grains_ += static_cast<size_t>(grain_count);
+  for (const GrainRange& range : grains) merged_grains_ += static_cast<size_t>(range.count);
 }
 
 void PublishedStep::Abort(const absl::Status& status) {

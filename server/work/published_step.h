@@ -21,6 +21,11 @@ struct WorkSetup {
   bool has_sightings = false;  // results may tell what every ray has seen
 };
 
+// Some grains, one after the other.
+struct GrainRange {
+  int first = 0, count = 0;
+};
+
 // Thread safe.
 class PublishedStep {
  public:
@@ -31,14 +36,15 @@ class PublishedStep {
   // Of all units together.
   int64_t rays() const { return rays_; }
 
-  // Some grains as one unit: its result is the sum of theirs. Requires: they are there.
-  WorkUnit Unit(int first_grain, int grain_count) const;
+  // Some grains as one unit: its result is the sum of theirs. Requires: one range or more, and they
+  // are there.
+  WorkUnit Unit(const std::vector<GrainRange>& grains) const;
   // Decodes a result of these grains and checks its ledger. INVALID_ARGUMENT (RESULT_INVALID),
   // naming `worker`. Requires: they are there.
-  absl::StatusOr<UnitResult> Check(int first_grain, int grain_count, const std::string& worker,
+  absl::StatusOr<UnitResult> Check(const std::vector<GrainRange>& grains, const std::string& worker,
                                    const std::string& bytes) const;
-  // Adds a checked result of so many grains. Requires: each grain once.
-  void Merge(const UnitResult& result, int grain_count);
+  // Adds a checked result of these grains. Requires: each grain once.
+  void Merge(const UnitResult& result, const std::vector<GrainRange>& grains);
   // Ends the step without a result. The first of Abort and the last Merge counts.
   void Abort(const absl::Status& status);
   // Blocks until every grain is merged, or the step aborted.

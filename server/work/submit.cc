@@ -1,5 +1,6 @@
 // WorkTable::Submit: what becomes of a result.
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "radiosity/core/error.h"
@@ -19,7 +20,7 @@ void Count(const absl::StatusOr<SubmitOutcome>& outcome, WorkCounters& counters)
     ++counters.results_accepted;
   } else if (*outcome == SubmitOutcome::kDuplicate) {
     ++counters.results_duplicate;
-  } else {
+  } else if (*outcome == SubmitOutcome::kObsolete) {
     ++counters.results_obsolete;
   }
 }
@@ -60,12 +61,11 @@ std::string WorkTable::WorkerOfSession(const std::string& session) const {
 
 absl::StatusOr<SubmitOutcome> WorkTable::Repeated(const Submission& submission,
                                                   const std::string& worker, PublishedStep& step) {
-  const UnitState& unit = state_.steps.at(submission.job).units[submission.unit];
-  if (unit.result_digest == submission.digest) return SubmitOutcome::kDuplicate;
+  const UnitState& unit = state_.steps.at(submission.job).units[submission.units[0].unit];
   absl::Status status =
       MakeError(absl::StatusCode::kDataLoss,
                 {"NONDETERMINISTIC_RESULT",
-                 "unit " + std::to_string(submission.unit) + " of " + submission.job,
+                 "unit " + std::to_string(submission.units[0].unit) + " of " + submission.job,
                  "workers " + unit.result_worker + " and " + worker + " computed different results",
                  "take the faulty one of these machines out of service and solve again"});
   step.Abort(status);
@@ -75,20 +75,50 @@ absl::StatusOr<SubmitOutcome> WorkTable::Repeated(const Submission& submission,
 absl::StatusOr<WorkTable::Claim> WorkTable::Examine(const Submission& submission) const {
   absl::MutexLock lock(&mutex_);
   Claim claim;
-  claim.worker = WorkerOf(submission.lease);
+  claim.worker = WorkerOf(submission.units[0].lease);
   claim.step = FindStep(submission.job, submission.step_number);
   if (claim.step == nullptr) return claim;
   const std::vector<UnitState>& units = state_.steps.at(submission.job).units;
-  if (submission.unit < 0 || submission.unit >= static_cast<int>(units.size())) {
-    return MakeError(absl::StatusCode::kInvalidArgument,
-                     {"FIELD_INVALID", "unit_key.unit_index", "there is no such unit",
-                      "use programs of one version"});
+  std::set<int> met;
+  for (const SubmittedUnit& submitted : submission.units) {
+    const bool is_there = submitted.unit >= 0 && submitted.unit < static_cast<int>(units.size());
+    if (!is_there || !met.insert(submitted.unit).second) {
+      return MakeError(
+          absl::StatusCode::kInvalidArgument,
+          {"FIELD_INVALID", "unit_index", "there is no such unit, or it is there twice",
+           "use programs of one version"});
+    }
+    const UnitState& unit = units[submitted.unit];
+    claim.grains.push_back({unit.first_grain, unit.grain_count});
   }
-  const UnitState& unit = units[submission.unit];
-  claim.first_grain = unit.first_grain;
-  claim.grain_count = unit.grain_count;
-  claim.is_new = !unit.done || unit.result_digest != submission.digest;
+  const Known known = Compare(submission);
+  claim.is_new = known.done == 0 || (submission.units.size() == 1 && known.equal == 0);
   return claim;
+}
+
+WorkTable::Known WorkTable::Compare(const Submission& submission) const {
+  Known known;
+  for (const SubmittedUnit& submitted : submission.units) {
+    const UnitState& unit = state_.steps.at(submission.job).units[submitted.unit];
+    known.done += unit.done;
+    known.equal += unit.done && unit.result_digest == submitted.digest;
+  }
+  return known;
+}
+
+absl::StatusOr<SubmitOutcome> WorkTable::Book(const Submission& submission, const Claim& claim) {
+  const Known known = Compare(submission);
+  if (known.equal == submission.units.size()) return SubmitOutcome::kDuplicate;
+  if (known.done > 0 && submission.units.size() > 1) return SubmitOutcome::kSplit;
+  if (known.done > 0) return Repeated(submission, claim.worker, *claim.step);
+  for (const SubmittedUnit& submitted : submission.units) {
+    FinishUnit(state_, {submission.job, submitted.unit}, submitted.digest, claim.worker,
+               submitted.run_seconds);
+    counters_.rays += state_.steps.at(submission.job).units[submitted.unit].rays;
+    counters_.run_microseconds += Microseconds(submitted.run_seconds);
+  }
+  ++merging_;
+  return SubmitOutcome::kAccepted;
 }
 
 absl::StatusOr<SubmitOutcome> WorkTable::Settle(const Submission& submission, const Claim& claim,
@@ -97,23 +127,19 @@ absl::StatusOr<SubmitOutcome> WorkTable::Settle(const Submission& submission, co
       claim.step != nullptr && FindStep(submission.job, submission.step_number) == claim.step;
   absl::StatusOr<SubmitOutcome> outcome = SubmitOutcome::kObsolete;
   if (!checked.ok()) {
-    FailLease(submission.lease, std::string(checked.message()));
     outcome = checked;
-  } else if (is_current && state_.steps.at(submission.job).units[submission.unit].done) {
-    outcome = Repeated(submission, claim.worker, *claim.step);
   } else if (is_current) {
-    FinishUnit(state_, {submission.job, submission.unit}, submission.digest, claim.worker,
-               submission.run_seconds);
-    counters_.rays += state_.steps.at(submission.job).units[submission.unit].rays;
-    counters_.run_microseconds += Microseconds(submission.run_seconds);
-    outcome = SubmitOutcome::kAccepted;
-    ++merging_;
+    outcome = Book(submission, claim);
   }
-  if (auto lease = state_.leases.find(submission.lease); lease != state_.leases.end()) {
+  if (outcome.ok() && *outcome == SubmitOutcome::kSplit) return outcome;
+  for (const SubmittedUnit& submitted : submission.units) {
+    if (!checked.ok()) FailLease(submitted.lease, std::string(checked.message()));
+    auto lease = state_.leases.find(submitted.lease);
+    if (lease == state_.leases.end()) continue;
     SessionState& session = state_.sessions.at(lease->second.session);
     if (outcome.ok() && *outcome == SubmitOutcome::kAccepted) ++session.finished_units;
     if (outcome.ok()) session.failures = 0;
-    RemoveLease(state_, submission.lease, /*failed=*/false);
+    RemoveLease(state_, submitted.lease, /*failed=*/false);
   }
   return outcome;
 }
@@ -126,8 +152,7 @@ absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
   // A repetition need not be decoded; one that differs must be sound before it accuses anybody.
   absl::StatusOr<UnitResult> result = UnitResult{};
   if (claim->is_new) {
-    result =
-        claim->step->Check(claim->first_grain, claim->grain_count, claim->worker, submission.bytes);
+    result = claim->step->Check(claim->grains, claim->worker, submission.bytes);
   }
   absl::StatusOr<SubmitOutcome> outcome = SubmitOutcome::kObsolete;
   Calls calls;
@@ -140,7 +165,7 @@ absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
   MakeCalls(calls);
   if (outcome.ok() && *outcome == SubmitOutcome::kAccepted) {
     result->cpu_seconds = submission.cpu_seconds;
-    claim->step->Merge(*result, claim->grain_count);
+    claim->step->Merge(*result, claim->grains);
     absl::MutexLock lock(&mutex_);
     --merging_;
   }

@@ -242,7 +242,7 @@ void WorkTable::Dispatch(Calls& calls) {
     AddLease(state_, {grant.job, unit}, grant.session, lease, now);
     const UnitState& lent = state_.steps.at(grant.job).units[unit];
     granted[grant.session].push_back(
-        {lease, steps_.at(grant.job), unit, lent.first_grain, lent.grain_count});
+        {lease, steps_.at(grant.job), unit, {lent.first_grain, lent.grain_count}});
   }
   for (auto& [name, session] : state_.sessions) {
     Exchange& exchange = exchanges_[name];

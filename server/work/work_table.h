@@ -36,7 +36,7 @@ struct GrantedLease {
   std::string name;
   std::shared_ptr<const PublishedStep> step;
   int unit = 0;
-  int first_grain = 0, grain_count = 0;
+  GrainRange grains;
 };
 
 struct SyncReply {
@@ -48,16 +48,24 @@ struct SyncReply {
 // Called exactly once, from any thread, without the table's lock.
 using SyncDone = std::function<void(absl::StatusOr<SyncReply>)>;
 
-struct Submission {
-  std::string lease, job;
-  int64_t step_number = 0;
+struct SubmittedUnit {
+  std::string lease;
   int unit = 0;
-  std::string digest;  // of `bytes`, checked
-  double cpu_seconds = 0, run_seconds = 0;
+  std::string digest;  // of the unit's own result
+  double run_seconds = 0;
+};
+
+// A result of one unit, or the sum of those of several. What is said of one holds for each.
+struct Submission {
+  std::string job;
+  int64_t step_number = 0;
+  std::vector<SubmittedUnit> units;  // one or more; of one, its digest is checked
+  double cpu_seconds = 0;
   std::string bytes;  // EncodeUnitResult
 };
 
-enum class SubmitOutcome { kAccepted, kDuplicate, kObsolete };
+// kSplit: some, but not all, of several units have a result; nothing was merged.
+enum class SubmitOutcome { kAccepted, kDuplicate, kObsolete, kSplit };
 
 struct WorkerInfo {
   std::string worker_id;
@@ -158,8 +166,16 @@ class WorkTable {
     std::shared_ptr<PublishedStep> step;  // null: it is over
     std::string worker;
     bool is_new = false;
-    int first_grain = 0, grain_count = 0;
+    std::vector<GrainRange> grains;
   };
+  // How many units of a submission have a result, and how many of those an equal one.
+  struct Known {
+    size_t done = 0, equal = 0;
+  };
+  Known Compare(const Submission& submission) const ABSL_SHARED_LOCKS_REQUIRED(mutex_);
+  // Books a sound submission of a step that goes on.
+  absl::StatusOr<SubmitOutcome> Book(const Submission& submission, const Claim& claim)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::StatusOr<Claim> Examine(const Submission& submission) const;
   // Books a submission whose bytes were checked.
   absl::StatusOr<SubmitOutcome> Settle(const Submission& submission, const Claim& claim,

@@ -65,10 +65,25 @@ inline UnitResult MakeResult(int64_t hits = 4) {
 inline Submission MakeSubmission(const GrantedLease& lease, const UnitResult& result,
                                  double cpu_seconds = 0.01) {
   std::string bytes = EncodeUnitResult(result);
-  return {lease.name,           lease.step->setup().job,
-          lease.step->number(), lease.unit,
-          Sha256Hex(bytes),     cpu_seconds,
-          cpu_seconds,          bytes};
+  return {lease.step->setup().job,
+          lease.step->number(),
+          {{lease.name, lease.unit, Sha256Hex(bytes), cpu_seconds}},
+          cpu_seconds,
+          bytes};
+}
+
+// A result of several units, each of which has that result.
+inline Submission Combine(const std::vector<GrantedLease>& leases,
+                          const UnitResult& each = MakeResult()) {
+  Submission combined = MakeSubmission(leases[0], each);
+  combined.units.clear();
+  UnitResult sum;
+  for (const GrantedLease& lease : leases) {
+    MergeResult(each, sum);
+    combined.units.push_back(MakeSubmission(lease, each).units[0]);
+  }
+  combined.bytes = EncodeUnitResult(sum);
+  return combined;
 }
 
 // Talks to a table as a worker does.

@@ -205,7 +205,7 @@ TEST_F(WorkTableTest, BytesThatAreNoResultAreRefused) {
   Submission submission = MakeSubmission(worker.leases[0], MakeResult());
   submission.bytes = "not a result";
   EXPECT_EQ(ReasonOf(table_.Submit(submission).status()), "RESULT_INVALID");
-  submission.unit = 99;
+  submission.units[0].unit = 99;
   EXPECT_EQ(ReasonOf(table_.Submit(submission).status()), "FIELD_INVALID");
 }
 

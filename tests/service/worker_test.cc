@@ -7,6 +7,7 @@
 #include "absl/synchronization/notification.h"
 #include "radiosity/shoot/options_codec.h"
 #include "tests/service/service_fixture.h"
+#include "tests/support/stub_shooter.h"
 #include "worker/lease_book.h"
 #include "worker/shooter_cache.h"
 
@@ -266,6 +267,22 @@ TEST_F(WorkerTest, AnotherUnitVersionIsToldSo) {
   Worker worker(rpc_->InProcessChannel(), options);
   refused.WaitForNotification();
   EXPECT_NE(message.find("from last year"), std::string::npos);
+}
+
+// Units that end while a result is on its way travel together.
+TEST_F(WorkerTest, ManySlotsSendFewerResultsThanUnitsAndTheSameBytes) {
+  AddWorker(MakeStubShooter);
+  const std::string expected = Watch(CreateJob(1'000'000, "one", 2, "pmcr").name()).payload;
+  workers_.clear();
+  AddWorker(MakeStubShooter, 16);
+  const server::WorkCounters& counters = coordinator_->work().counters();
+  const int64_t before = counters.results_accepted;
+  int64_t units = 0;
+  for (int i = 0; i < 50 && units == counters.results_accepted - before; ++i) {
+    EXPECT_EQ(Watch(CreateJob(1'000'000, "", 2, "pmcr").name()).payload, expected);
+    units = coordinator_->work().ListWorkers().at(0).finished_units;
+  }
+  EXPECT_GT(units, counters.results_accepted - before);
 }
 
 TEST_F(WorkerTest, SeveralSlotsGiveTheBytesOfOne) {
