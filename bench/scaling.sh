@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# bench/scaling.sh DIR [SIMULATE_FARM]: passes of 10,000 rays a patch on farms of 1 to 1,000 nodes that
+# bench/scaling.sh DIR [SIMULATE_FARM]: passes of 10,000 rays a patch on farms of 1 to 256 nodes that
 # are not there, by simulate_farm, into DIR/scaling.csv and, drawn, DIR/scaling.png (docs/scaling.md).
 # Needs gnuplot, and a quarter of an hour.
 set -euo pipefail
