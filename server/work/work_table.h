@@ -36,7 +36,7 @@ struct GrantedLease {
   std::string name;
   std::shared_ptr<const PublishedStep> step;
   int unit = 0;
-  GrainRange grains;
+  GrainRange grains = {};
 };
 
 struct SyncReply {
