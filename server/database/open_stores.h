@@ -10,10 +10,10 @@
 namespace lambert::server {
 
 struct StoreOptions {
-  std::string data_folder;  // of blobs, in DIR/blobs; made where there is none
+  std::string data_folder = {};  // of blobs, in DIR/blobs; made where there is none
   // postgresql://...; "": records are in DIR/lambert.db, and a second server on the folder is
   // refused (STORE_IN_USE).
-  std::string database;
+  std::string database = {};
   // With `database`: called while another server owns it; waits a moment, false gives up.
   std::function<bool()> wait = [] { return false; };
 };
