@@ -45,7 +45,7 @@ class Launcher {
 
   Launcher(const PatchSet& patches, const ShootOptions& options, const RayScene& scene,
            const SurfaceTree* tree)
-      : options_(options), scene_(scene), emitters_(patches, scene, tree) {}
+      : options_(options), emitters_(patches, scene, tree) {}
   class Offsets;
   bool IsPossible(const Visit& visit) const {
     const bool seen_fits =
@@ -70,7 +70,6 @@ class Launcher {
                   uint32_t offset, Volley& volley) const;
 
   const ShootOptions options_;
-  const RayScene& scene_;
   const Emitters emitters_;
   std::unique_ptr<DirectionTable> directions_;  // null: no pyramids
 };
