@@ -4,10 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "radiosity/core/bounds.h"
+#include "radiosity/core/disjoint_sets.h"
 
 namespace lambert {
 namespace {
@@ -74,17 +74,11 @@ std::vector<Edge> EdgesOf(const PatchSet& patches, const std::vector<PatchIndex>
   return edges;
 }
 
-int32_t RootOf(std::vector<int32_t>& parent, int32_t face) {
-  while (parent[face] != face) face = parent[face] = parent[parent[face]];
-  return face;
-}
-
 // Faces that hang together by edges of two, without those that have an edge of any other kind.
 std::vector<std::vector<PatchIndex>> ClosedShells(const PatchSet& patches,
                                                   const std::vector<PatchIndex>& faces) {
   const std::vector<Edge> edges = EdgesOf(patches, faces);
-  std::vector<int32_t> parent(faces.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets shell_of(faces.size());
   std::vector<bool> is_open(faces.size());
   for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     const auto is_same = [&](const Edge& e) {
@@ -94,13 +88,13 @@ std::vector<std::vector<PatchIndex>> ClosedShells(const PatchSet& patches,
     const bool is_closed = end == begin + 2 && edges[begin].forward != edges[begin + 1].forward;
     for (size_t e = begin; e < end; ++e) {
       if (!is_closed) is_open[edges[e].face] = true;
-      parent[RootOf(parent, edges[e].face)] = RootOf(parent, edges[begin].face);
+      shell_of.Join(edges[e].face, edges[begin].face);
     }
   }
   std::map<int32_t, std::vector<PatchIndex>> shells;
   std::vector<bool> has_hole(faces.size());  // by root
   for (size_t f = 0; f < faces.size(); ++f) {
-    const int32_t root = RootOf(parent, static_cast<int32_t>(f));
+    const int32_t root = shell_of.Find(static_cast<int32_t>(f));
     shells[root].push_back(faces[f]);
     if (is_open[f]) has_hole[root] = true;
   }
