@@ -26,8 +26,7 @@ struct Grant {
 //  2. What is still open is granted ahead, up to `units_per_slot`, so that the next unit lies there
 //     when one ends; but never a unit for which somebody else has a free slot.
 //  3. With nothing open for them, free slots repeat units that are late (their worker may be
-//  frozen),
-//     the oldest first, never one that the same worker holds.
+//     frozen), the oldest first, never one that the same worker holds.
 std::vector<Grant> NextLeases(const WorkState& state, TimePoint now, const WorkOptions& options);
 
 // How long a lease of `rays` rays may take before its unit counts as late.
