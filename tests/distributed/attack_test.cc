@@ -1,7 +1,6 @@
 // A server that anybody may talk to, and does: 10,000 requests that are none. It answers each or
 // ends its connection, and then solves a job as before.
 #include <arpa/inet.h>
-#include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "tests/distributed/farm.h"
+#include "tests/service/raw_call.h"
 #include "tests/service/rpc_methods.h"
 
 namespace lambert {
@@ -38,29 +38,8 @@ class Attacker {
   // A call with one message; what becomes of it.
   grpc::StatusCode Call(const std::string& method, const std::string& body,
                         const std::string& metadata = "") {
-    grpc::ClientContext context;
-    if (!metadata.empty()) context.AddMetadata("authorization", metadata);
     // A body may happen to be a good request that is held.
-    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(10));
-    grpc::CompletionQueue queue;
-    auto next = [&queue] {
-      void* tag = nullptr;
-      bool ok = false;
-      return queue.Next(&tag, &ok) && ok;
-    };
-    auto call = stub_.PrepareCall(&context, method, &queue);
-    call->StartCall(nullptr);
-    next();
-    const grpc::Slice slice(body);
-    call->WriteLast(grpc::ByteBuffer(&slice, 1), {}, nullptr);
-    next();
-    grpc::ByteBuffer response;
-    do call->Read(&response, nullptr);
-    while (next());
-    grpc::Status status;
-    call->Finish(&status, nullptr);
-    next();
-    return status.error_code();
+    return CallRaw(stub_, method, body, metadata, std::chrono::seconds(10)).error_code();
   }
 
   // A connection on which these bytes are sent; the caller closes it.

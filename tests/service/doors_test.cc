@@ -1,13 +1,12 @@
 // Who may come in, and whom each method is for.
 #include "server/doors/doors.h"
 
-#include <grpcpp/generic/generic_stub.h>
-
 #include <filesystem>
 #include <fstream>
 
 #include "lambert/v1/farm_service.grpc.pb.h"
 #include "radiosity/core/error.h"
+#include "tests/service/raw_call.h"
 #include "tests/service/rpc_methods.h"
 #include "tests/service/service_fixture.h"
 #include "tests/support/temporary_folder.h"
@@ -24,28 +23,7 @@ std::string ReasonOf(const absl::Status& status) {
 grpc::Status CallEmpty(const std::shared_ptr<grpc::Channel>& channel, const std::string& method,
                        const std::string& authorization) {
   grpc::GenericStub stub(channel);
-  grpc::ClientContext context;
-  if (!authorization.empty()) context.AddMetadata("authorization", authorization);
-  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
-  grpc::CompletionQueue queue;
-  auto next = [&queue] {
-    void* tag = nullptr;
-    bool ok = false;
-    return queue.Next(&tag, &ok) && ok;
-  };
-  auto call = stub.PrepareCall(&context, method, &queue);
-  call->StartCall(nullptr);
-  next();
-  const grpc::Slice nothing;
-  call->WriteLast(grpc::ByteBuffer(&nothing, 1), {}, nullptr);
-  next();
-  grpc::ByteBuffer response;
-  do call->Read(&response, nullptr);
-  while (next());
-  grpc::Status status;
-  call->Finish(&status, nullptr);
-  next();
-  return status;
+  return CallRaw(stub, method, "", authorization, std::chrono::seconds(30));
 }
 
 class DoorsTest : public ServiceFixture {
