@@ -25,10 +25,7 @@ Method ReferenceMethod(const PatchSet& patches) {
   return patches.size() <= kMaxExactPatches ? Method::kExact : Method::kPmcr;
 }
 
-bool IsInterrupted(const absl::Status& status) {
-  const auto detail = GetErrorDetail(status);
-  return detail && detail->reason == "INTERRUPTED";
-}
+bool IsInterrupted(const absl::Status& status) { return ReasonOf(status) == "INTERRUPTED"; }
 
 std::string Why(const absl::Status& status) {
   const auto detail = GetErrorDetail(status);

@@ -33,6 +33,11 @@ std::optional<ErrorDetail> GetErrorDetail(const absl::Status& status) {
   return detail;
 }
 
+std::string ReasonOf(const absl::Status& status) {
+  const std::optional<ErrorDetail> detail = GetErrorDetail(status);
+  return detail.has_value() ? detail->reason : "";
+}
+
 absl::Status SceneError(const std::string& where, const std::string& message,
                         const std::string& hint) {
   return MakeError(absl::StatusCode::kInvalidArgument, {"SCENE_INVALID", where, message, hint});

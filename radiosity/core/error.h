@@ -20,6 +20,8 @@ absl::Status MakeError(absl::StatusCode code, const ErrorDetail& detail);
 
 // The detail that MakeError stored, or nullopt for a status made otherwise.
 std::optional<ErrorDetail> GetErrorDetail(const absl::Status& status);
+// The reason of that detail, or "".
+std::string ReasonOf(const absl::Status& status);
 
 // For a scene that cannot be used: INVALID_ARGUMENT with reason SCENE_INVALID.
 absl::Status SceneError(const std::string& where, const std::string& message,

@@ -38,8 +38,8 @@ absl::Status DamagedRecord(const std::string& kind, const std::string& id) {
 }
 
 bool IsOwnershipLost(const absl::Status& status) {
-  const auto detail = GetErrorDetail(status);
-  return detail.has_value() && (detail->reason == "FENCED" || detail->reason == "DATABASE_LOST");
+  const std::string reason = ReasonOf(status);
+  return reason == "FENCED" || reason == "DATABASE_LOST";
 }
 
 }  // namespace lambert::server

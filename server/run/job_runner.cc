@@ -20,9 +20,7 @@ constexpr double kPublishCostFactor = 20;
 
 // The job stays as it is: this server, or the next, goes on with it.
 bool IsInterrupted(const absl::Status& status) {
-  if (IsOwnershipLost(status)) return true;
-  auto detail = GetErrorDetail(status);
-  return detail.has_value() && detail->reason == "SHUTTING_DOWN";
+  return IsOwnershipLost(status) || ReasonOf(status) == "SHUTTING_DOWN";
 }
 
 }  // namespace

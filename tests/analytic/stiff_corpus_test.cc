@@ -156,7 +156,7 @@ void ExpectRefused(const PatchSet& patches, const SolveOptions& options,
     status = solver.RunPass(executor, nullptr);
   }
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(GetErrorDetail(status)->reason, reason);
+  EXPECT_EQ(ReasonOf(status), reason);
 }
 
 void ExpectWarned(const PatchSet& patches, const std::string& reason) {

@@ -36,7 +36,7 @@ TEST_F(GnuplotTest, WhatGnuplotDoesNotLikeIsAnErrorWithItsWords) {
   Write("bad.gp", "plto x\n");
   const absl::Status status = RunGnuplot(folder_, "bad.gp", {"png"});
   ASSERT_TRUE(GetErrorDetail(status));
-  EXPECT_EQ(GetErrorDetail(status)->reason, "GNUPLOT_FAILED");
+  EXPECT_EQ(ReasonOf(status), "GNUPLOT_FAILED");
   EXPECT_NE(status.message().find("bad.gp"), std::string::npos);
   EXPECT_NE(status.message().find("plto"), std::string::npos) << status;
 }

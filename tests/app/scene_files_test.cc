@@ -28,11 +28,6 @@ class SceneFiles : public testing::Test {
   const fs::path folder_ = own_.path();
 };
 
-std::string ReasonOf(const absl::Status& status) {
-  const auto detail = GetErrorDetail(status);
-  return detail ? detail->reason : std::string(status.ToString());
-}
-
 TEST_F(SceneFiles, ABundleHoldsTheFilesThatTheSceneNames) {
   Write("parts/a b.bin", "abc");
   const auto bundle = ReadSceneBundle(WriteGltf("parts/a%20b.bin"));

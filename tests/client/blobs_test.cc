@@ -117,7 +117,7 @@ TEST_F(BlobsTest, BytesThatAreNotThoseThatWereNamedAreRefused) {
     fake_.blobs[Sha256Hex(right)] = wrong;
     const absl::Status status = blobs_.Download({Sha256Hex(right), 3000}, "solution").status();
     EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
-    EXPECT_EQ(GetErrorDetail(status)->reason, "BLOB_CORRUPT");
+    EXPECT_EQ(ReasonOf(status), "BLOB_CORRUPT");
   }
 }
 

@@ -46,7 +46,7 @@ TEST(Caller, WithoutPatienceTheFirstFailureIsTheLast) {
   const absl::Status status = noted.caller.Call(
       "job", kDeadline, [](grpc::ClientContext&) { return Away(); }, "do this");
   EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
-  EXPECT_EQ(GetErrorDetail(status)->reason, "SERVER_UNREACHABLE");
+  EXPECT_EQ(ReasonOf(status), "SERVER_UNREACHABLE");
   EXPECT_EQ(status.message(), "test: the server is away (connection refused); do this");
 }
 
@@ -69,7 +69,7 @@ TEST(Caller, AbortEndsAWaitAndAllLaterCalls) {
     return Away();
   });
   other.join();
-  EXPECT_EQ(GetErrorDetail(status)->reason, "INTERRUPTED");
+  EXPECT_EQ(ReasonOf(status), "INTERRUPTED");
   int attempts = 0;
   EXPECT_FALSE(noted.caller
                    .Call("job", kDeadline,

@@ -31,11 +31,17 @@ TEST(GetErrorDetail, IsNothingForOtherStatuses) {
   EXPECT_FALSE(GetErrorDetail(absl::InternalError("where: what; do this")).has_value());
 }
 
+TEST(ReasonOf, IsEmptyForOtherStatuses) {
+  EXPECT_EQ(ReasonOf(absl::OkStatus()), "");
+  EXPECT_EQ(ReasonOf(absl::InternalError("where: what; do this")), "");
+  EXPECT_EQ(ReasonOf(SceneError("a.glb", "it is empty", "export it again")), "SCENE_INVALID");
+}
+
 TEST(SceneError, IsAnInvalidArgumentWithReasonSceneInvalid) {
   const absl::Status status = SceneError("a.glb, node 3", "scale is NaN", "export it again");
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
   ASSERT_TRUE(GetErrorDetail(status).has_value());
-  EXPECT_EQ(GetErrorDetail(status)->reason, "SCENE_INVALID");
+  EXPECT_EQ(ReasonOf(status), "SCENE_INVALID");
   EXPECT_EQ(GetErrorDetail(status)->where, "a.glb, node 3");
 }
 

@@ -13,8 +13,6 @@ namespace {
 
 using Records = std::map<std::string, std::string>;
 
-std::string ReasonOf(const absl::Status& status) { return GetErrorDetail(status)->reason; }
-
 class PostgresRecords : public testing::Test {
  protected:
   void SetUp() override {

@@ -17,8 +17,6 @@ namespace {
 
 using Records = std::map<std::string, std::string>;
 
-std::string ReasonOf(const absl::Status& status) { return GetErrorDetail(status)->reason; }
-
 class SqliteRecords : public testing::Test {
  protected:
   std::unique_ptr<RecordStore> Open() { return *OpenSqliteRecordStore(path_); }

@@ -66,7 +66,7 @@ TEST(Compare, NoRegionGivesNoLocalError) {
 
 TEST(Compare, ARegionWithoutPatchesIsRefused) {
   const PatchTable table = TableOf({1}, {4});
-  EXPECT_EQ(GetErrorDetail(Compare(table, table, {7}).status())->reason, "REGION_EMPTY");
+  EXPECT_EQ(ReasonOf(Compare(table, table, {7}).status()), "REGION_EMPTY");
 }
 
 TEST(Compare, ADarkReferenceLeavesMeasuresEmpty) {
@@ -94,7 +94,7 @@ TEST(Compare, PatchesInAnotherOrderArePairedByOriginAndCorners) {
 TEST(Compare, TablesOfOtherPatchesAreRefused) {
   const absl::StatusOr<ErrorMeasures> measures =
       Compare(TableOf({1, 2}, {4, 5}), TableOf({1, 2, 3}, {4, 5, 6}));
-  EXPECT_EQ(GetErrorDetail(measures.status())->reason, "TABLES_DIFFER");
+  EXPECT_EQ(ReasonOf(measures.status()), "TABLES_DIFFER");
 }
 
 TEST(Compare, HugeAndTinyScalesGiveTheSameRatios) {

@@ -45,7 +45,7 @@ TEST(OutputFile, AFullDiskSaysWhereWhatAndWhatToDo) {
   EXPECT_EQ(status.message(),
             "out/patches.csv: cannot be written (No space left on device); free some space or "
             "choose another folder with -o");
-  EXPECT_EQ(GetErrorDetail(status)->reason, "OUTPUT_FAILED");
+  EXPECT_EQ(ReasonOf(status), "OUTPUT_FAILED");
 }
 
 TEST(OutputFile, AMissingFolderIsAnErrorThatNamesTheFile) {
@@ -65,7 +65,7 @@ TEST(OutputFolder, AFileInItsPlaceIsRefused) {
   const std::string path = TestFolder() + "/file";
   ASSERT_TRUE(WriteOutputFile(path, "x").ok());
   const absl::Status status = MakeOutputFolder(path);
-  EXPECT_EQ(GetErrorDetail(status)->reason, "OUTPUT_FAILED");
+  EXPECT_EQ(ReasonOf(status), "OUTPUT_FAILED");
   EXPECT_EQ(GetErrorDetail(status)->where, path);
 }
 

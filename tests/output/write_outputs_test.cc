@@ -74,7 +74,7 @@ TEST(WriteOutputs, AFolderThatCannotBeMadeIsNamed) {
   const std::string file = TestFolder() + "/file";
   ASSERT_TRUE(WriteOutputFile(file, "x").ok());
   const absl::Status status = WriteOutputs(file + "/out", SomeRecord());
-  EXPECT_EQ(GetErrorDetail(status)->reason, "OUTPUT_FAILED");
+  EXPECT_EQ(ReasonOf(status), "OUTPUT_FAILED");
 }
 
 }  // namespace

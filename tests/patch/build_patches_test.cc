@@ -24,10 +24,6 @@ bool HasWarning(const PatchSet& patches, const std::string& reason) {
   return false;
 }
 
-std::string ReasonOf(const absl::Status& status) {
-  return GetErrorDetail(status).value_or(ErrorDetail{}).reason;
-}
-
 // One triangle per call: a scene of loose triangles in one primitive.
 Scene Triangles(const std::vector<std::array<Vec3, 3>>& triangles) {
   Scene scene = MakeFurnace(0.5);

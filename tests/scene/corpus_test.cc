@@ -68,7 +68,7 @@ TEST(Corpus, EveryConformanceFileLoadsOrIsRefusedByName) {
       ExpectUsable(*patches);
     } else {
       std::cout << path.filename() << ": " << patches.status().message() << "\n";
-      EXPECT_EQ(GetErrorDetail(patches.status())->reason, "NO_TRIANGLES") << patches.status();
+      EXPECT_EQ(ReasonOf(patches.status()), "NO_TRIANGLES") << patches.status();
     }
   }
 }

@@ -2,8 +2,6 @@
 
 #include <cstring>
 
-#include "radiosity/core/error.h"
-
 namespace lambert {
 namespace {
 
@@ -126,10 +124,6 @@ std::string MakePng(uint32_t width, uint32_t height, const std::string& codes) {
   AppendPngChunk("IDAT", Stored(rows), &png);
   AppendPngChunk("IEND", "", &png);
   return png;
-}
-
-std::string ReasonOf(const absl::Status& status) {
-  return GetErrorDetail(status).value_or(ErrorDetail{}).reason;
 }
 
 }  // namespace lambert

@@ -52,7 +52,4 @@ class GltfDocument {
 // An uncompressed RGBA PNG of one colour per pixel; `codes`: width * height * 4 values.
 std::string MakePng(uint32_t width, uint32_t height, const std::string& codes);
 
-// The reason of a status that MakeError made; "" for others.
-std::string ReasonOf(const absl::Status& status);
-
 }  // namespace lambert

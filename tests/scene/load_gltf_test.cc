@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "radiosity/core/error.h"
 #include "tests/scene/gltf_document.h"
 #include "tests/support/scenes.h"
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "radiosity/core/error.h"
 #include "tests/scene/gltf_document.h"
 
 namespace lambert {

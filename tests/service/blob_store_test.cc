@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "radiosity/core/digest.h"
+#include "radiosity/core/error.h"
 #include "server/base/files.h"
 #include "server/blobs/blob_refs.h"
 #include "server/blobs/uploads.h"

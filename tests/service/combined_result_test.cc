@@ -1,6 +1,7 @@
 // A result of several units: all of them are merged, or none.
 #include <gtest/gtest.h>
 
+#include "radiosity/core/error.h"
 #include "tests/service/work_fakes.h"
 
 namespace lambert::server {

@@ -14,11 +14,6 @@
 namespace lambert::server {
 namespace {
 
-std::string ReasonOf(const absl::Status& status) {
-  const auto detail = GetErrorDetail(status);
-  return detail.has_value() ? detail->reason : "";
-}
-
 // The status of a call without a body.
 grpc::Status CallEmpty(const std::shared_ptr<grpc::Channel>& channel, const std::string& method,
                        const std::string& authorization) {

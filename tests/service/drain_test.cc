@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "absl/synchronization/notification.h"
+#include "radiosity/core/error.h"
 #include "tests/service/work_fakes.h"
 
 namespace lambert::server {

@@ -1,4 +1,5 @@
 #include "lambert/v1/farm_service.grpc.pb.h"
+#include "radiosity/core/error.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/scene/load_gltf.h"
 #include "radiosity/solve/plan.h"

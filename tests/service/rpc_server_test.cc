@@ -32,7 +32,7 @@ TEST_F(RpcServerTest, TwoServersDoNotShareAPort) {
   const absl::Status second =
       server::RpcServer::Start(coordinator_.get(), first->address()).status();
   ASSERT_FALSE(second.ok());
-  EXPECT_EQ(GetErrorDetail(second)->reason, "ADDRESS_IN_USE");
+  EXPECT_EQ(ReasonOf(second), "ADDRESS_IN_USE");
 }
 
 }  // namespace

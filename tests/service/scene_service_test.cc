@@ -1,3 +1,4 @@
+#include "radiosity/core/error.h"
 #include "tests/service/service_fixture.h"
 
 namespace lambert {

@@ -104,7 +104,7 @@ TEST_F(Tls, ATokenTravelsInPlainTextOnlyOnLoopback) {
     const absl::Status refused =
         MakeChannelCredentials(elsewhere, {"", "", "", File("bob")}).status();
     ASSERT_FALSE(refused.ok());
-    EXPECT_EQ(GetErrorDetail(refused)->reason, "FIELD_INVALID");
+    EXPECT_EQ(ReasonOf(refused), "FIELD_INVALID");
     EXPECT_NE(refused.message().find("plain text"), std::string::npos) << refused;
   }
 }
@@ -123,7 +123,7 @@ TEST_F(Tls, FilesThatDoNotFitAreNamed) {
   for (const CredentialFiles& files : bad) {
     const absl::Status status = MakeChannelCredentials("127.0.0.1:1", files).status();
     ASSERT_FALSE(status.ok()) << files.tls_cert << files.token;
-    EXPECT_EQ(GetErrorDetail(status)->reason, "FIELD_INVALID");
+    EXPECT_EQ(ReasonOf(status), "FIELD_INVALID");
   }
 }
 

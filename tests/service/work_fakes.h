@@ -7,15 +7,9 @@
 #include <vector>
 
 #include "radiosity/core/digest.h"
-#include "radiosity/core/error.h"
 #include "server/work/work_table.h"
 
 namespace lambert::server {
-
-inline std::string ReasonOf(const absl::Status& status) {
-  auto detail = GetErrorDetail(status);
-  return detail.has_value() ? detail->reason : "(none)";
-}
 
 class FakeClock {
  public:

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "radiosity/core/error.h"
 #include "tests/service/work_fakes.h"
 
 namespace lambert::server {

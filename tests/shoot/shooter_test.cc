@@ -200,7 +200,7 @@ TEST(Shooter, RefusesUnitsThatNameWhatDoesNotExist) {
       const WorkUnit unit{1, 0, 0, {{0, 1, 0, 1, {0, 0, 1}}, visit}};
       const absl::StatusOr<UnitResult> result = shooter->Run(unit);
       ASSERT_EQ(result.status().code(), absl::StatusCode::kInvalidArgument);
-      EXPECT_EQ(GetErrorDetail(result.status())->reason, "FIELD_INVALID");
+      EXPECT_EQ(ReasonOf(result.status()), "FIELD_INVALID");
     }
     EXPECT_EQ(shooter->Run({1, 1u << 16, 0, {}}).status().code(),
               absl::StatusCode::kInvalidArgument);

@@ -125,7 +125,7 @@ TEST(UnitCodec, DamagedUnitsAreRefusedOrDecodeToWhatTheySay) {
     if (read.ok()) {
       ASSERT_TRUE(EncodeUnit(*read) == damaged);
     } else {
-      ASSERT_EQ(GetErrorDetail(read.status())->reason, "RESULT_INVALID");
+      ASSERT_EQ(ReasonOf(read.status()), "RESULT_INVALID");
       ++refused;
     }
   }
@@ -146,7 +146,7 @@ TEST(UnitCodec, DamagedResultsAreRefusedOrAreAboutThePatchesAskedFor) {
       // Never a crash, whatever the numbers are.
       (void)CheckLedger(unit, *read);
     } else {
-      ASSERT_EQ(GetErrorDetail(read.status())->reason, "RESULT_INVALID");
+      ASSERT_EQ(ReasonOf(read.status()), "RESULT_INVALID");
       ++refused;
     }
   }

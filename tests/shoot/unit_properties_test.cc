@@ -149,7 +149,7 @@ RC_GTEST_PROP(CheckLedger, NoticesAnyChangeOfAnyOneNumberOfFlux, ()) {
       *number = now;
       const absl::Status status = CheckLedger(booked.unit, booked.result);
       RC_ASSERT(status.code() == absl::StatusCode::kDataLoss);
-      RC_ASSERT(GetErrorDetail(status)->reason == "RESULT_INVALID");
+      RC_ASSERT(ReasonOf(status) == "RESULT_INVALID");
     }
     *number = was;
   }

@@ -76,7 +76,7 @@ void ExpectRefused(const char* what, Forge forge) {
   const absl::Status status = CheckLedger(booked.unit, booked.result);
   EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss) << what;
   if (!status.ok()) {
-    EXPECT_EQ(GetErrorDetail(status)->reason, "RESULT_INVALID") << what;
+    EXPECT_EQ(ReasonOf(status), "RESULT_INVALID") << what;
   }
 }
 
@@ -90,7 +90,7 @@ TEST(CheckLedger, TheChannelsAreThoseOfTheUnit) {
   result.channels = kGrayChannels;
   EXPECT_TRUE(CheckLedger(unit, result).ok()) << CheckLedger(unit, result);
   unit.channels = kColorChannels;
-  EXPECT_EQ(GetErrorDetail(CheckLedger(unit, result))->reason, "RESULT_INVALID");
+  EXPECT_EQ(ReasonOf(CheckLedger(unit, result)), "RESULT_INVALID");
 }
 
 TEST(CheckLedger, WhatComesToRestIsWhatArrived) {

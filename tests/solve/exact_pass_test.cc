@@ -42,7 +42,7 @@ TEST(ExactPass, RefusesAClosedSceneThatKeepsAllFlux) {
   SolverRun run(Share(MakeFurnace(1, 1, 2)), Exact());
   const absl::Status status = run.ToTheEnd();
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(GetErrorDetail(status)->reason, "SINGULAR_CLOSED_RHO_1");
+  EXPECT_EQ(ReasonOf(status), "SINGULAR_CLOSED_RHO_1");
 }
 
 TEST(ExactPass, BalancesItsLedger) {
@@ -122,7 +122,7 @@ TEST(ExactPass, RefusesMorePatchesThanItsLimit) {
   const SharedPatches patches = Share(MakeFurnace(0.5, 1, 21));  // 5,292
   const auto shooter = Shooter::Create(patches, options);
   ASSERT_FALSE(shooter.ok());
-  EXPECT_EQ(GetErrorDetail(shooter.status())->reason, "FIELD_INVALID");
+  EXPECT_EQ(ReasonOf(shooter.status()), "FIELD_INVALID");
 }
 
 }  // namespace

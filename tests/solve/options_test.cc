@@ -19,7 +19,7 @@ std::string RefusedAfter(Change change) {
   const absl::Status status = options.Validate();
   if (status.ok()) return "";
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_EQ(GetErrorDetail(status)->reason, "FIELD_INVALID");
+  EXPECT_EQ(ReasonOf(status), "FIELD_INVALID");
   return GetErrorDetail(status)->where;
 }
 

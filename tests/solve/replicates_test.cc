@@ -219,7 +219,7 @@ TEST(Replicates, RefuseOtherBytesAndStayWhatTheyWere) {
   for (const std::string& bytes : broken) {
     const absl::Status status = replicates.Restore(bytes);
     ASSERT_EQ(status.code(), absl::StatusCode::kDataLoss);
-    EXPECT_EQ(GetErrorDetail(status)->reason, "CHECKPOINT_INVALID");
+    EXPECT_EQ(ReasonOf(status), "CHECKPOINT_INVALID");
     EXPECT_TRUE(replicates.Encode() == before) << bytes.size() << " bytes";
   }
 }

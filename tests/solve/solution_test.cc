@@ -51,7 +51,7 @@ TEST(SolutionCodec, RefusesEveryTruncationAndWhatFollowsTheEnd) {
   for (size_t size = 0; size < bytes.size(); ++size) {
     const absl::StatusOr<Solution> read = DecodeSolution(bytes.substr(0, size));
     ASSERT_EQ(read.status().code(), absl::StatusCode::kDataLoss) << size;
-    ASSERT_EQ(GetErrorDetail(read.status())->reason, "SOLUTION_INVALID");
+    ASSERT_EQ(ReasonOf(read.status()), "SOLUTION_INVALID");
   }
   EXPECT_FALSE(DecodeSolution(bytes + '\0').ok());
 }

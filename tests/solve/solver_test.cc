@@ -89,7 +89,7 @@ TEST(Solver, RefusesOtherBytesAsACheckpointAndStaysWhatItWas) {
         std::string(good.size(), 'x'), other.solver.EncodeCheckpoint()}) {
     const absl::Status status = run.solver.Restore(bytes);
     ASSERT_EQ(status.code(), absl::StatusCode::kDataLoss) << bytes.size();
-    EXPECT_EQ(GetErrorDetail(status)->reason, "CHECKPOINT_INVALID");
+    EXPECT_EQ(ReasonOf(status), "CHECKPOINT_INVALID");
     EXPECT_TRUE(run.solver.EncodeCheckpoint() == good);
   }
 }
@@ -171,7 +171,7 @@ TEST(SerialExecutor, RefusesABrokenLedger) {
   SerialExecutor forging(std::make_shared<ForgingShooter>(shooter));
   const absl::Status status = SolverRun(Cornell(), options).solver.RunPass(forging, nullptr);
   EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
-  EXPECT_EQ(GetErrorDetail(status)->reason, "RESULT_INVALID");
+  EXPECT_EQ(ReasonOf(status), "RESULT_INVALID");
 }
 
 TEST(SerialExecutor, MergesTheResultsOfAllUnits) {

@@ -91,7 +91,7 @@ TEST(Stop, AClosedSceneThatReflectsAllIsRefusedByName) {
   const absl::Status status = run.ToTheEnd();
   EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition);
   ASSERT_TRUE(GetErrorDetail(status).has_value());
-  EXPECT_EQ(GetErrorDetail(status)->reason, "SINGULAR_CLOSED_RHO_1");
+  EXPECT_EQ(ReasonOf(status), "SINGULAR_CLOSED_RHO_1");
 }
 
 TEST(Stop, AnOpenSceneThatReflectsAllIsSolved) {
@@ -106,7 +106,7 @@ TEST(Stop, MoreStepsThanAllowedFailSayingSo) {
   SolverRun run(Cornell(), options);
   const absl::Status status = run.ToTheEnd();
   EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
-  EXPECT_EQ(GetErrorDetail(status)->reason, "STEPS_EXHAUSTED");
+  EXPECT_EQ(ReasonOf(status), "STEPS_EXHAUSTED");
 }
 
 // Cancels after a number of steps.
