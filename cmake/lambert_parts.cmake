@@ -10,7 +10,7 @@ option(LAMBERT_BUILD_BENCH "The benchmarks of shooting, where Google Benchmark i
 
 # The rooms of the parts that are wanted.
 set(shooting radiosity/core radiosity/patch radiosity/pyramid radiosity/trace radiosity/exact
-  radiosity/shoot)
+  radiosity/shoot radiosity/gather)
 set(telling radiosity/core telemetry)
 set(serving ${shooting} radiosity/scene radiosity/solve proto net server)
 set(working ${shooting} proto net worker)

@@ -97,18 +97,24 @@ double FluxFraction(Vec3 a, Vec3 b, Vec3 c) {
   return (LambertEdge(a, b) + LambertEdge(b, c) + LambertEdge(c, a)) / (2 * std::numbers::pi);
 }
 
-SphericalTriangle::SphericalTriangle(Vec3 a, Vec3 b, Vec3 c) : c_(c) {
+ArvoConstants MakeArvoConstants(Vec3 a, Vec3 b, Vec3 c) {
   const double alpha = AngleAt(a, b, c);
-  arvo_.a = a;
-  arvo_.b = b;
-  arvo_.c_toward = OrthogonalPart(c, a);
-  arvo_.sin_alpha = std::sin(alpha);
-  arvo_.cos_alpha = std::cos(alpha);
-  arvo_.cos_edge_c = Dot(a, b);
-  arvo_.solid_angle = alpha + AngleAt(b, c, a) + AngleAt(c, a, b) - std::numbers::pi;
-  flux_fraction_ = FluxFraction(a, b, c);
-  pieces_ = CutOnDisk(a, b, c);
+  ArvoConstants triangle;
+  triangle.a = a;
+  triangle.b = b;
+  triangle.c_toward = OrthogonalPart(c, a);
+  triangle.sin_alpha = std::sin(alpha);
+  triangle.cos_alpha = std::cos(alpha);
+  triangle.cos_edge_c = Dot(a, b);
+  triangle.solid_angle = alpha + AngleAt(b, c, a) + AngleAt(c, a, b) - std::numbers::pi;
+  return triangle;
 }
+
+SphericalTriangle::SphericalTriangle(Vec3 a, Vec3 b, Vec3 c)
+    : arvo_(MakeArvoConstants(a, b, c)),
+      c_(c),
+      flux_fraction_(FluxFraction(a, b, c)),
+      pieces_(CutOnDisk(a, b, c)) {}
 
 const DiskPiece& SphericalTriangle::PickOneOfMany(float& xi) const {
   const auto after = std::upper_bound(pieces_.begin(), pieces_.end() - 1, xi,
@@ -118,8 +124,7 @@ const DiskPiece& SphericalTriangle::PickOneOfMany(float& xi) const {
   return *after;
 }
 
-Vec3 SphericalTriangle::SampleSolidAngle(double xi1, double xi2) const {
-  const ArvoConstants& k = arvo_;
+Vec3 SampleSolidAngle(const ArvoConstants& k, double xi1, double xi2) {
   const Vector<double> d = Arvo<double>({ToVector(k.a), ToVector(k.b), ToVector(k.c_toward),
                                          k.sin_alpha, k.cos_alpha, k.cos_edge_c, k.solid_angle},
                                         xi1, xi2);

@@ -24,6 +24,11 @@ struct ArvoConstants {
   double solid_angle = 0;               // [sr]
 };
 
+// Requires: unit vectors, no two equal, the triangle smaller than a hemisphere.
+ArvoConstants MakeArvoConstants(Vec3 a, Vec3 b, Vec3 c);
+// A direction in that triangle with uniform density in solid angle. xi1, xi2 in [0, 1).
+Vec3 SampleSolidAngle(const ArvoConstants& triangle, double xi1, double xi2);
+
 // f: the fraction of a Lambertian emitter's flux that leaves through a triangle, by Lambert's
 // polygon formula:  f = 1/(2 pi) sum_k gamma_k (n . Gamma_k) gamma_k: angle of edge k; Gamma_k:
 // unit normal of its plane.
@@ -49,7 +54,9 @@ class SphericalTriangle {
     return pieces_.size() == 1 ? pieces_[0] : PickOneOfMany(xi);
   }
   // Direction with uniform density in solid angle (Arv95). xi1, xi2 in [0, 1).
-  Vec3 SampleSolidAngle(double xi1, double xi2) const;
+  Vec3 SampleSolidAngle(double xi1, double xi2) const {
+    return lambert::SampleSolidAngle(arvo_, xi1, xi2);
+  }
   const ArvoConstants& arvo() const { return arvo_; }
 
  private:

@@ -72,7 +72,7 @@ void ExpectAllAgree(const PatchSet& patches, int walks, int64_t rays) {
   paper.shoot.pyramids.split = 3;
   paper.shoot.pyramids.depth = 1;
   const ByPatch phs12 = Summarize(patches, SolveSeeds(patches, paper, kSeeds, 200));
-  Gathered walked = GatherByWalks(patches, walks, 12345);
+  Walked walked = GatherByWalks(patches, walks, 12345);
   const ByPatch gather{std::move(walked.radiosity), std::move(walked.std_error),
                        std::vector<int64_t>(patches.size(), kMinHits)};
   // Far more precise than the others: their differences are the others' errors.

@@ -78,9 +78,9 @@ class Walker {
 
 }  // namespace
 
-Gathered GatherByWalks(const PatchSet& patches, int walks_per_patch, uint64_t seed) {
+Walked GatherByWalks(const PatchSet& patches, int walks_per_patch, uint64_t seed) {
   Walker walker(patches, seed);
-  Gathered gathered;
+  Walked gathered;
   const double n = walks_per_patch;
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     const std::vector<double> met = walker.Walk(i, walks_per_patch);

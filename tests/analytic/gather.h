@@ -9,13 +9,13 @@
 namespace lambert {
 
 // Radiosity of every patch, gray scenes' red channel, and its standard error.
-struct Gathered {
+struct Walked {
   std::vector<double> radiosity, std_error;
 };
 
 // B_i = E_i + rho_i E[E_j + rho_j (...)] over paths that leave each patch at a uniform point in a
 // cosine-distributed direction and go on with probability rho. Its own random numbers and sampling;
 // shares nothing with the shooting methods but the ray tracer. Requires: no point lights.
-Gathered GatherByWalks(const PatchSet& patches, int walks_per_patch, uint64_t seed);
+Walked GatherByWalks(const PatchSet& patches, int walks_per_patch, uint64_t seed);
 
 }  // namespace lambert
