@@ -107,7 +107,7 @@ absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& op
   absl::StatusOr<Survey> survey = SurveyScene(scene, options);
   if (!survey.ok()) return survey.status();
 
-  PatchBuilder builder(*materials, options, survey->pieces);
+  PatchBuilder builder(*materials, scene.textures, options, survey->pieces);
   status = ForEachTriangle(scene, survey->origin,
                            [&](const PlacedTriangle& placed) { return builder.Add(placed); });
   if (!status.ok()) return status;

@@ -8,7 +8,6 @@
 #include "radiosity/patch/duplicates.h"
 #include "radiosity/patch/morton.h"
 #include "radiosity/patch/shape.h"
-#include "radiosity/patch/texture_mean.h"
 
 namespace lambert {
 namespace {
@@ -26,26 +25,35 @@ int SamplesPerEdge(double expected_patches) {
                                      kLeastSamplesPerEdge, kMostSamplesPerEdge));
 }
 
+// Sum of a corner's values, each times its weight.
+template <typename Value>
+double Interpolate(Vec3 weights, const std::vector<Value>& values,
+                   const std::array<uint32_t, 3>& vertices, int axis) {
+  return weights.x * values[vertices[0]][axis] + weights.y * values[vertices[1]][axis] +
+         weights.z * values[vertices[2]][axis];
+}
+
 // The texture coordinates of a piece's corners.
 absl::StatusOr<std::array<Uv, 3>> UvOf(const PlacedTriangle& placed, const SplitPiece& piece,
-                                       int uv_set) {
-  const auto& coordinates = placed.primitive->uv[uv_set];
-  if (coordinates.empty()) {
-    return SceneError(Where(placed.source),
-                      absl::StrCat("its material has a texture, but it has no TEXCOORD_", uv_set),
-                      "export texture coordinates, or take the texture off the material");
+                                       const TextureUse& use) {
+  const auto coordinates = placed.primitive->uv.find(use.uv_set);
+  if (coordinates == placed.primitive->uv.end()) {
+    return SceneError(
+        Where(placed.source),
+        absl::StrCat("its material has a texture, but it has no TEXCOORD_", use.uv_set),
+        "export texture coordinates, or take the texture off the material");
   }
   std::array<Uv, 3> uv;
   for (int k = 0; k < 3; ++k) {
-    const Vec3 w = piece[k].barycentric;
-    for (int axis = 0; axis < 2; ++axis) {
-      uv[k][axis] = w.x * coordinates[placed.vertices[0]][axis] +
-                    w.y * coordinates[placed.vertices[1]][axis] +
-                    w.z * coordinates[placed.vertices[2]][axis];
-      if (!std::isfinite(uv[k][axis])) {
-        return SceneError(Where(placed.source), "a texture coordinate is not finite",
-                          "export the file again");
-      }
+    const auto at = [&](int axis) {
+      return Interpolate(piece[k].barycentric, coordinates->second, placed.vertices, axis);
+    };
+    const double u = at(0), v = at(1);
+    uv[k] = {use.row_u[0] * u + use.row_u[1] * v + use.row_u[2],
+             use.row_v[0] * u + use.row_v[1] * v + use.row_v[2]};
+    if (!std::isfinite(uv[k][0]) || !std::isfinite(uv[k][1])) {
+      return SceneError(Where(placed.source), "a texture coordinate is not finite",
+                        "export the file again");
     }
   }
   return uv;
@@ -64,9 +72,11 @@ std::string Where(const PatchSource& source) {
                       source.primitive, ", triangle ", source.triangle);
 }
 
-PatchBuilder::PatchBuilder(const std::vector<PatchMaterial>& materials, const PatchOptions& options,
+PatchBuilder::PatchBuilder(const std::vector<PatchMaterial>& materials,
+                           const std::vector<Texture>& textures, const PatchOptions& options,
                            double expected_patches)
     : materials_(materials),
+      textures_(textures),
       options_(options),
       samples_per_edge_(SamplesPerEdge(expected_patches)) {}
 
@@ -84,20 +94,16 @@ absl::Status PatchBuilder::Add(const PlacedTriangle& placed) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<Rgb> PatchBuilder::Mean(const PlacedTriangle& placed, const SplitPiece& piece,
-                                       const Texture* texture, int uv_set, int least_alpha) const {
-  if (texture == nullptr) return Rgb{1, 1, 1};
-  const absl::StatusOr<std::array<Uv, 3>> uv = UvOf(placed, piece, uv_set);
+absl::StatusOr<PaintedTriangle> PatchBuilder::Paint(const PlacedTriangle& placed,
+                                                    const SplitPiece& piece,
+                                                    const TextureUse& use) const {
+  PaintedTriangle painted;
+  if (use.texture < 0) return painted;
+  const absl::StatusOr<std::array<Uv, 3>> uv = UvOf(placed, piece, use);
   if (!uv.ok()) return uv.status();
-  return TextureMean(*texture, *uv, samples_per_edge_, least_alpha);
-}
-
-absl::StatusOr<double> PatchBuilder::Coverage(const PlacedTriangle& placed, const SplitPiece& piece,
-                                              const PatchMaterial& material) const {
-  if (material.alpha_texture == nullptr) return material.least_alpha <= 255 ? 1 : 0;
-  const absl::StatusOr<std::array<Uv, 3>> uv = UvOf(placed, piece, material.reflectance_uv);
-  if (!uv.ok()) return uv.status();
-  return TextureCoverage(*material.alpha_texture, *uv, samples_per_edge_, material.least_alpha);
+  painted.texture = &textures_[use.texture];
+  painted.uv = *uv;
+  return painted;
 }
 
 absl::Status PatchBuilder::AddPiece(const PlacedTriangle& placed, const SplitPiece& piece) {
@@ -105,25 +111,31 @@ absl::Status PatchBuilder::AddPiece(const PlacedTriangle& placed, const SplitPie
   const double area_m2 = Measure(corners).area_m2;
   if (!(area_m2 > 0)) return absl::OkStatus();
   const PatchMaterial& material = materials_[placed.primitive->material + 1];
-  const absl::StatusOr<double> coverage = Coverage(placed, piece, material);
-  if (!coverage.ok()) return coverage.status();
-  if (*coverage > 0 && *coverage < 1) ++partly_cut_;
-  if (*coverage < kLeastCoverage) {
+  absl::StatusOr<PaintedTriangle> diffuse = Paint(placed, piece, material.reflectance_texture);
+  if (!diffuse.ok()) return diffuse.status();
+  const auto& colors = placed.primitive->colors;
+  for (int k = 0; k < 3 && !colors.empty(); ++k) {
+    for (int c = 0; c < 4; ++c) {
+      diffuse->colors[k][c] =
+          static_cast<float>(Interpolate(piece[k].barycentric, colors, placed.vertices, c));
+    }
+  }
+  const MaskedMean reflectance =
+      MeanOver(*diffuse, samples_per_edge_, material.alpha, material.alpha_cutoff);
+  if (reflectance.coverage > 0 && reflectance.coverage < 1) ++partly_cut_;
+  if (reflectance.coverage < kLeastCoverage) {
     ++cut_;
     return absl::OkStatus();
   }
   patches_ += material.two_sided ? 2 : 1;
   if (patches_ > options_.max_patches) return TooManyPatches(options_.max_patches);
-  absl::StatusOr<Rgb> reflectance = Mean(placed, piece, material.reflectance_texture,
-                                         material.reflectance_uv, material.least_alpha);
-  if (!reflectance.ok()) return reflectance.status();
-  absl::StatusOr<Rgb> exitance =
-      Mean(placed, piece, material.exitance_texture, material.exitance_uv, 0);
-  if (!exitance.ok()) return exitance.status();
+  const absl::StatusOr<PaintedTriangle> glow = Paint(placed, piece, material.exitance_texture);
+  if (!glow.ok()) return glow.status();
   fronts_.corners.push_back(corners);
   fronts_.area_m2.push_back(area_m2);
-  fronts_.reflectance.push_back(material.reflectance * *reflectance);
-  fronts_.exitance_lm_per_m2.push_back(material.exitance_lm_per_m2 * *exitance);
+  fronts_.reflectance.push_back(material.reflectance * reflectance.mean);
+  fronts_.exitance_lm_per_m2.push_back(material.exitance_lm_per_m2 *
+                                       MeanOver(*glow, samples_per_edge_).mean);
   fronts_.twin.push_back(material.two_sided ? 0 : kNoPatch);
   fronts_.source.push_back(placed.source);
   return absl::OkStatus();

@@ -9,6 +9,7 @@
 #include "radiosity/patch/patch_material.h"
 #include "radiosity/patch/place.h"
 #include "radiosity/patch/split.h"
+#include "radiosity/patch/texture_mean.h"
 
 namespace lambert {
 
@@ -22,9 +23,9 @@ std::string Where(const PatchSource& source);
 class PatchBuilder {
  public:
   // `expected_patches`: at least about how many there will be; textures are sampled the finer, the
-  // fewer. The materials and options must outlive the builder.
-  PatchBuilder(const std::vector<PatchMaterial>& materials, const PatchOptions& options,
-               double expected_patches);
+  // fewer. Materials, textures and options must outlive the builder.
+  PatchBuilder(const std::vector<PatchMaterial>& materials, const std::vector<Texture>& textures,
+               const PatchOptions& options, double expected_patches);
 
   // Splits one triangle, averages its textures and leaves out the patches that alpha mode MASK cuts
   // away by more than half. Without area it is only counted. SceneError for
@@ -40,16 +41,14 @@ class PatchBuilder {
 
  private:
   absl::Status AddPiece(const PlacedTriangle& placed, const SplitPiece& piece);
-  // Of the texels of at least that alpha.
-  absl::StatusOr<Rgb> Mean(const PlacedTriangle& placed, const SplitPiece& piece,
-                           const Texture* texture, int uv_set, int least_alpha) const;
-  // The share of a piece that alpha mode MASK leaves.
-  absl::StatusOr<double> Coverage(const PlacedTriangle& placed, const SplitPiece& piece,
-                                  const PatchMaterial& material) const;
+  // The piece with texture `use` on it; without one, white.
+  absl::StatusOr<PaintedTriangle> Paint(const PlacedTriangle& placed, const SplitPiece& piece,
+                                        const TextureUse& use) const;
   // Copies front `front`, and its back where it is two-sided, to the end of `sorted`.
   void Append(PatchIndex front, PatchSet* sorted) const;
 
   const std::vector<PatchMaterial>& materials_;
+  const std::vector<Texture>& textures_;
   const PatchOptions& options_;
   const int samples_per_edge_;
   std::vector<SplitPiece> pieces_;  // of the triangle in hand

@@ -22,22 +22,6 @@ absl::Status CheckFactor(Rgb factor, size_t material, const char* what) {
   return absl::OkStatus();
 }
 
-// nullptr where there is no texture, or where nothing of it shows.
-const Texture* UsedTexture(const Scene& scene, int texture, bool shows) {
-  return texture >= 0 && shows ? &scene.textures[texture] : nullptr;
-}
-
-// The least 8-bit alpha that reaches the cutoff: compared as numbers of a file, in float32.
-int LeastAlpha(const Material& material) {
-  const auto reaches_cutoff = [&material](int code) {
-    return static_cast<float>(code / 255.0 * material.alpha) >=
-           static_cast<float>(material.alpha_cutoff);
-  };
-  int code = 0;
-  while (code < 256 && !reaches_cutoff(code)) ++code;
-  return code;
-}
-
 }  // namespace
 
 absl::StatusOr<std::vector<PatchMaterial>> MakePatchMaterials(const Scene& scene,
@@ -58,15 +42,14 @@ absl::StatusOr<std::vector<PatchMaterial>> MakePatchMaterials(const Scene& scene
     PatchMaterial made;
     made.reflectance = {std::min(rho.r, 1.0), std::min(rho.g, 1.0), std::min(rho.b, 1.0)};
     if (made.reflectance != rho) ++clamped;
-    made.reflectance_texture = UsedTexture(scene, material.reflectance_texture, rho != Rgb{});
-    made.reflectance_uv = material.reflectance_uv;
+    if (rho != Rgb{} || material.alpha_cutoff > 0) {
+      made.reflectance_texture = material.reflectance_texture;
+    }
     made.exitance_lm_per_m2 = exitance_lm_per_m2;
-    made.exitance_texture =
-        UsedTexture(scene, material.luminance_texture, material.luminance != Rgb{});
-    made.exitance_uv = material.luminance_uv;
+    if (material.luminance != Rgb{}) made.exitance_texture = material.luminance_texture;
     made.two_sided = material.two_sided || all_two_sided;
-    made.least_alpha = LeastAlpha(material);
-    made.alpha_texture = UsedTexture(scene, material.reflectance_texture, made.least_alpha > 0);
+    made.alpha = material.alpha;
+    made.alpha_cutoff = material.alpha_cutoff;
     materials.push_back(made);
   }
   if (clamped > 0) {

@@ -29,39 +29,64 @@ int TexelIndex(double t, int size, Texture::Wrap wrap) {
   return static_cast<int>(std::clamp(std::floor(t * size), 0.0, size - 1.0));
 }
 
-int SamplesPerEdge(const Texture& texture, const std::array<Uv, 3>& uv, int most) {
-  if (texture.width == 1 && texture.height == 1) return 1;
+// Where vertex colours alone decide what is cut.
+constexpr int kAlphaSamples = 64;
+
+int SamplesPerEdge(const PaintedTriangle& triangle, int most, bool masked) {
+  const auto& colors = triangle.colors;
+  const bool alpha_varies = colors[0][3] != colors[1][3] || colors[0][3] != colors[2][3];
+  const double least = masked && alpha_varies ? kAlphaSamples : 1;
+  const Texture* texture = triangle.texture;
   double texels = 0;
-  for (int k = 0; k < 3; ++k) {
-    const Uv &a = uv[k], &b = uv[(k + 1) % 3];
-    texels =
-        std::max(texels, std::hypot((b[0] - a[0]) * texture.width, (b[1] - a[1]) * texture.height));
+  if (texture != nullptr && (texture->width > 1 || texture->height > 1)) {
+    for (int k = 0; k < 3; ++k) {
+      const Uv &a = triangle.uv[k], &b = triangle.uv[(k + 1) % 3];
+      texels = std::max(
+          texels, std::hypot((b[0] - a[0]) * texture->width, (b[1] - a[1]) * texture->height));
+    }
   }
-  return static_cast<int>(std::clamp(std::ceil(texels * kSamplesPerTexel), 1.0, 1.0 * most));
+  const double wanted = std::max(least, std::ceil(texels * kSamplesPerTexel));
+  return static_cast<int>(std::min(wanted, 1.0 * most));
 }
 
-// Calls `visit` with the RGBA codes under each sample of the triangle: n * n of them, which is
-// returned.
+// RGBA codes of the texel at a point of the triangle.
+const uint8_t* TexelAt(const PaintedTriangle& triangle, const std::array<double, 3>& weights) {
+  static constexpr uint8_t kWhite[4] = {255, 255, 255, 255};
+  if (triangle.texture == nullptr) return kWhite;
+  const Texture& texture = *triangle.texture;
+  Uv at{};
+  for (int k = 0; k < 3; ++k) {
+    for (int axis = 0; axis < 2; ++axis) at[axis] += weights[k] * triangle.uv[k][axis];
+  }
+  const int x = TexelIndex(at[0], texture.width, texture.wrap_u);
+  const int y = TexelIndex(at[1], texture.height, texture.wrap_v);
+  return &texture.rgba[(size_t{1} * y * texture.width + x) * 4];
+}
+
+std::array<double, 4> ColorAt(const PaintedTriangle& triangle,
+                              const std::array<double, 3>& weights) {
+  std::array<double, 4> color{};
+  for (int k = 0; k < 3; ++k) {
+    for (int c = 0; c < 4; ++c) color[c] += weights[k] * triangle.colors[k][c];
+  }
+  return color;
+}
+
+// Calls `visit` with the weights of the corners at each of n * n samples, where n is `per_edge`:
+// the triangle is cut into n * n equal ones and sampled at their centroids, whose weights of
+// corners 1 and 2 are (i + third) / n and (j + third) / n: upright cells have thirds of 1, inverted
+// ones of 2.
 template <typename Visit>
-double ForEachSample(const Texture& texture, const std::array<Uv, 3>& uv, int most, Visit visit) {
-  const int n = SamplesPerEdge(texture, uv, most);
-  // The triangle is cut into n * n equal triangles; each is sampled at its centroid, whose weights
-  // of corners 1 and 2 are (i + third) / n and (j + third) / n: upright cells have thirds of 1,
-  // inverted ones of 2.
+void ForEachSample(int per_edge, Visit visit) {
+  const int n = per_edge;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; i + j < n; ++j) {
       for (int inverted = 0; inverted < (i + j + 1 < n ? 2 : 1); ++inverted) {
         const double w1 = (i + (1 + inverted) / 3.0) / n, w2 = (j + (1 + inverted) / 3.0) / n;
-        const double w0 = 1 - w1 - w2;
-        const int x = TexelIndex(w0 * uv[0][0] + w1 * uv[1][0] + w2 * uv[2][0], texture.width,
-                                 texture.wrap_u);
-        const int y = TexelIndex(w0 * uv[0][1] + w1 * uv[1][1] + w2 * uv[2][1], texture.height,
-                                 texture.wrap_v);
-        visit(&texture.rgba[(size_t{1} * y * texture.width + x) * 4]);
+        visit({1 - w1 - w2, w1, w2});
       }
     }
   }
-  return 1.0 * n * n;
 }
 
 }  // namespace
@@ -71,25 +96,29 @@ double SrgbToLinear(uint8_t code) {
   return table[code];
 }
 
-Rgb TextureMean(const Texture& texture, const std::array<Uv, 3>& uv, int max_samples_per_edge,
-                int least_alpha) {
+MaskedMean MeanOver(const PaintedTriangle& triangle, int max_samples_per_edge, double alpha,
+                    double cutoff) {
+  const bool colored = triangle.colors != PaintedTriangle{}.colors;
+  const int n = SamplesPerEdge(triangle, max_samples_per_edge, cutoff > 0);
   Rgb sum;
   int64_t count = 0;
-  ForEachSample(texture, uv, max_samples_per_edge, [&](const uint8_t* texel) {
-    if (texel[3] < least_alpha) return;
-    sum = sum + Rgb{SrgbToLinear(texel[0]), SrgbToLinear(texel[1]), SrgbToLinear(texel[2])};
+  ForEachSample(n, [&](const std::array<double, 3>& weights) {
+    const uint8_t* texel = TexelAt(triangle, weights);
+    const std::array<double, 4> color =
+        colored ? ColorAt(triangle, weights) : std::array<double, 4>{1, 1, 1, 1};
+    // As numbers of a file are compared: in float32.
+    if (static_cast<float>(texel[3] / 255.0 * alpha * color[3]) < static_cast<float>(cutoff)) {
+      return;
+    }
+    sum = sum + Rgb{SrgbToLinear(texel[0]), SrgbToLinear(texel[1]), SrgbToLinear(texel[2])} *
+                    Rgb{color[0], color[1], color[2]};
     ++count;
   });
-  return count > 0 ? sum / static_cast<double>(count) : Rgb{};
-}
-
-double TextureCoverage(const Texture& texture, const std::array<Uv, 3>& uv,
-                       int max_samples_per_edge, int least_alpha) {
-  int64_t count = 0;
-  const double samples =
-      ForEachSample(texture, uv, max_samples_per_edge,
-                    [&](const uint8_t* texel) { count += texel[3] >= least_alpha; });
-  return static_cast<double>(count) / samples;
+  if (count == 0) return {{}, 0};
+  const Rgb mean = sum / static_cast<double>(count);
+  // Weights sum to 1 up to rounding.
+  return {{std::min(mean.r, 1.0), std::min(mean.g, 1.0), std::min(mean.b, 1.0)},
+          static_cast<double>(count) / (1.0 * n * n)};
 }
 
 }  // namespace lambert

@@ -1,4 +1,4 @@
-// Means of a texture over a triangle.
+// Means of textures and vertex colours over a triangle.
 #pragma once
 
 #include <array>
@@ -10,18 +10,25 @@ namespace lambert {
 
 using Uv = std::array<double, 2>;
 
-// Both of the triangle whose corners have texture coordinates `uv`. Texels are cells of one value;
-// four points a texel are sampled along the longest edge, at most `max_samples_per_edge`. Exact, up
-// to rounding, where all texels under the triangle are equal. Deterministic. Require: finite uv; a
-// texture with pixels.
+// What a triangle shows at its corners: a texture, vertex colours, or both.
+struct PaintedTriangle {
+  const Texture* texture = nullptr;  // none: white and opaque. Requires: pixels
+  std::array<Uv, 3> uv = {};         // finite
+  std::array<std::array<float, 4>, 3> colors = {{{1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 1}}};
+};
 
-// Mean of the texels (sRGB decoded, linear 0..1) whose alpha is `least_alpha` (0..256) or more;
-// zero where there are none.
-Rgb TextureMean(const Texture& texture, const std::array<Uv, 3>& uv, int max_samples_per_edge,
-                int least_alpha = 0);
-// The share of such texels, 0..1.
-double TextureCoverage(const Texture& texture, const std::array<Uv, 3>& uv,
-                       int max_samples_per_edge, int least_alpha);
+struct MaskedMean {
+  Rgb mean;             // of texture (sRGB decoded) times colour where there is surface, 0..1
+  double coverage = 1;  // the share of the triangle where there is surface
+};
+
+// The mean over `triangle`, whose surface is where alpha times that of texture and colour, as
+// float32, reaches `cutoff`; zero where that is nowhere. Texels are cells of one value, colours
+// linear between corners; four points a texel are sampled along the longest edge, at most
+// `max_samples_per_edge`. Exact, up to rounding, where all texels under the triangle are equal and
+// nothing is cut. Deterministic.
+MaskedMean MeanOver(const PaintedTriangle& triangle, int max_samples_per_edge, double alpha = 1,
+                    double cutoff = 0);
 
 // Linear value of an 8-bit sRGB code.
 double SrgbToLinear(uint8_t code);

@@ -25,18 +25,20 @@ constexpr KnownExtension kKnown[] = {
     {"KHR_lights_punctual", Support::kCounted},
     {"KHR_materials_anisotropy", Support::kLeftOut},
     {"KHR_materials_clearcoat", Support::kLeftOut},
+    {"KHR_materials_diffuse_transmission", Support::kCounted},
     {"KHR_materials_dispersion", Support::kLeftOut},
     {"KHR_materials_emissive_strength", Support::kRead},
     {"KHR_materials_ior", Support::kLeftOut},
     {"KHR_materials_iridescence", Support::kLeftOut},
+    {"KHR_materials_pbrSpecularGlossiness", Support::kRead},
     {"KHR_materials_sheen", Support::kLeftOut},
     {"KHR_materials_specular", Support::kLeftOut},
-    {"KHR_materials_transmission", Support::kLeftOut},
+    {"KHR_materials_transmission", Support::kCounted},
     {"KHR_materials_unlit", Support::kCounted},
     {"KHR_materials_variants", Support::kLeftOut},
     {"KHR_materials_volume", Support::kLeftOut},
     {"KHR_mesh_quantization", Support::kRead},
-    {"KHR_texture_transform", Support::kCounted},
+    {"KHR_texture_transform", Support::kRead},
 };
 
 const KnownExtension* FindKnown(const std::string& name) {
@@ -80,19 +82,35 @@ absl::Status CheckVersionAndExtensions(const tinygltf::Model& model, UnreadFeatu
   return absl::OkStatus();
 }
 
+nlohmann::json FindExtension(const std::string& extensions_json, const std::string& name) {
+  if (extensions_json.empty()) return nullptr;
+  const nlohmann::json all = nlohmann::json::parse(extensions_json, nullptr, false);
+  if (!all.is_object() || !all.contains(name) || !all[name].is_object()) return nullptr;
+  return all[name];
+}
+
+absl::StatusOr<std::vector<double>> NumbersOf(const nlohmann::json& extension,
+                                              const std::string& field, std::vector<double> absent,
+                                              const std::string& where) {
+  if (!extension.is_object() || !extension.contains(field)) return absent;
+  const nlohmann::json& value = extension[field];
+  const nlohmann::json list = value.is_array() ? value : nlohmann::json::array({value});
+  bool numbers = list.size() == absent.size();
+  for (const nlohmann::json& number : list) numbers = numbers && number.is_number();
+  if (!numbers) {
+    return SceneError(where, absl::StrCat(field, " is not ", absent.size(), " number(s)"),
+                      "export the file again");
+  }
+  return list.get<std::vector<double>>();
+}
+
 absl::StatusOr<double> ExtensionNumber(const std::string& extensions_json, const std::string& name,
                                        const std::string& field, double absent,
                                        const std::string& where) {
-  if (extensions_json.empty()) return absent;
-  const nlohmann::json all = nlohmann::json::parse(extensions_json, nullptr, false);
-  if (!all.is_object() || !all.contains(name) || !all[name].is_object()) return absent;
-  const nlohmann::json& extension = all[name];
-  if (!extension.contains(field)) return absent;
-  if (!extension[field].is_number()) {
-    return SceneError(where, absl::StrCat(field, " of ", name, " is not a number"),
-                      "export the file again");
-  }
-  return extension[field].get<double>();
+  absl::StatusOr<std::vector<double>> read =
+      NumbersOf(FindExtension(extensions_json, name), field, {absent}, where);
+  if (!read.ok()) return read.status();
+  return read->front();
 }
 
 }  // namespace lambert

@@ -3,7 +3,9 @@
 
 #include <tiny_gltf.h>
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -21,5 +23,14 @@ absl::Status CheckVersionAndExtensions(const tinygltf::Model& model, UnreadFeatu
 absl::StatusOr<double> ExtensionNumber(const std::string& extensions_json, const std::string& name,
                                        const std::string& field, double absent,
                                        const std::string& where);
+
+// The object of extension `name` in `extensions_json`; null where there is none.
+nlohmann::json FindExtension(const std::string& extensions_json, const std::string& name);
+
+// The numbers `field` of an extension, or `absent` where there are none. SceneError naming `where`
+// for anything but as many numbers as `absent` has.
+absl::StatusOr<std::vector<double>> NumbersOf(const nlohmann::json& extension,
+                                              const std::string& field, std::vector<double> absent,
+                                              const std::string& where);
 
 }  // namespace lambert

@@ -1,71 +1,104 @@
 #include "radiosity/scene/gltf_material.h"
 
+#include <nlohmann/json.hpp>
+
 #include "absl/strings/str_cat.h"
+#include "radiosity/core/error.h"
 #include "radiosity/scene/gltf_extensions.h"
+#include "radiosity/scene/gltf_texture.h"
 
 namespace lambert {
 namespace {
 
-// Lambert reads TEXCOORD_0 and TEXCOORD_1.
-constexpr int kUvSets = 2;
-
 Rgb ToRgb(const std::vector<double>& values) { return {values[0], values[1], values[2]}; }
 
-struct TextureUse {
-  int texture = -1, uv = 0;
+TextureInfo FromGltf(const tinygltf::TextureInfo& info) {
+  return {info.index, info.texCoord, info.extensions_json_string};
+}
+
+// What a material reflects diffusely, whatever model it follows.
+struct Diffuse {
+  std::vector<double> factor;  // RGBA
+  TextureInfo texture;
 };
 
-// The texture that `info` (a tinygltf texture info) names, if anything of it shows.
-template <typename Info>
-absl::StatusOr<TextureUse> ReadTexture(const Info& info, bool shows, const char* what,
-                                       TextureLoader* textures, UnreadFeatures* unread) {
-  if (info.index < 0 || !shows) return TextureUse{};
-  if (info.extensions.count("KHR_texture_transform") > 0) {
-    unread->Add("KHR_texture_transform", "texture", "taken without offset, rotation and scale");
+absl::StatusOr<Diffuse> ReadDiffuse(const tinygltf::Material& gltf, const std::string& where,
+                                    UnreadFeatures* unread) {
+  const nlohmann::json glossy =
+      FindExtension(gltf.extensions_json_string, "KHR_materials_pbrSpecularGlossiness");
+  if (glossy.is_object()) {
+    absl::StatusOr<std::vector<double>> factor =
+        NumbersOf(glossy, "diffuseFactor", {1, 1, 1, 1}, where);
+    if (!factor.ok()) return factor.status();
+    return Diffuse{*std::move(factor), TextureInfoOf(glossy, "diffuseTexture")};
   }
-  if (info.texCoord < 0 || info.texCoord >= kUvSets) {
-    unread->Add(absl::StrCat(what, " with TEXCOORD_2 or higher"), "texture", "left out");
-    return TextureUse{};
+  const tinygltf::PbrMetallicRoughness& pbr = gltf.pbrMetallicRoughness;
+  if (pbr.metallicFactor > 0) {
+    unread->Add("metalness", "material", "base colour taken as diffuse reflectance");
   }
-  absl::StatusOr<int> texture = textures->Load(info.index);
-  if (!texture.ok()) return texture.status();
-  if (*texture < 0) unread->Add("image from an extension", "texture", "left out");
-  return TextureUse{*texture, info.texCoord};
+  return Diffuse{pbr.baseColorFactor, FromGltf(pbr.baseColorTexture)};
+}
+
+// The share of the light that is not reflected but let through.
+absl::StatusOr<double> ReadTransmission(const tinygltf::Material& gltf, const std::string& where,
+                                        UnreadFeatures* unread) {
+  double reflected = 1;
+  for (const auto& [name, field] :
+       {std::pair{"KHR_materials_transmission", "transmissionFactor"},
+        {"KHR_materials_diffuse_transmission", "diffuseTransmissionFactor"}}) {
+    const absl::StatusOr<double> factor =
+        ExtensionNumber(gltf.extensions_json_string, name, field, 0, where);
+    if (!factor.ok()) return factor.status();
+    if (!(*factor >= 0 && *factor <= 1)) {
+      return SceneError(where, absl::StrCat(field, " is not from 0 to 1"), "export the file again");
+    }
+    if (*factor > 0) unread->Add(name, "material", "what would pass through is absorbed");
+    reflected *= 1 - *factor;
+  }
+  return 1 - reflected;
 }
 
 void CountUnread(const tinygltf::Material& gltf, UnreadFeatures* unread) {
   if (gltf.alphaMode == "BLEND") unread->Add("alpha mode BLEND", "material", "taken as opaque");
-  if (gltf.pbrMetallicRoughness.metallicFactor > 0) {
-    unread->Add("metalness", "material", "base colour taken as diffuse reflectance");
-  }
   if (gltf.extensions.count("KHR_materials_unlit") > 0) {
     unread->Add("KHR_materials_unlit", "material", "base colour taken as diffuse reflectance");
   }
 }
 
+absl::Status ReadReflectance(const tinygltf::Material& gltf, const std::string& where,
+                             TextureLoader* textures, UnreadFeatures* unread, Material* material) {
+  const absl::StatusOr<Diffuse> diffuse = ReadDiffuse(gltf, where, unread);
+  if (!diffuse.ok()) return diffuse.status();
+  const absl::StatusOr<double> transmission = ReadTransmission(gltf, where, unread);
+  if (!transmission.ok()) return transmission.status();
+  material->reflectance = ToRgb(diffuse->factor) * (1 - *transmission);
+  if (gltf.alphaMode == "MASK") material->alpha_cutoff = gltf.alphaCutoff;
+  material->alpha = diffuse->factor[3];
+  if (material->reflectance == Rgb{} && material->alpha_cutoff <= 0) return absl::OkStatus();
+  absl::StatusOr<TextureUse> use = ReadTexture(diffuse->texture, where, textures, unread);
+  if (use.ok()) material->reflectance_texture = *use;
+  return use.status();
+}
+
+absl::Status ReadLuminance(const tinygltf::Material& gltf, const std::string& where,
+                           TextureLoader* textures, UnreadFeatures* unread, Material* material) {
+  const absl::StatusOr<double> strength = ExtensionNumber(
+      gltf.extensions_json_string, "KHR_materials_emissive_strength", "emissiveStrength", 1, where);
+  if (!strength.ok()) return strength.status();
+  material->luminance = ToRgb(gltf.emissiveFactor) * *strength;
+  if (material->luminance == Rgb{}) return absl::OkStatus();
+  absl::StatusOr<TextureUse> use =
+      ReadTexture(FromGltf(gltf.emissiveTexture), where, textures, unread);
+  if (use.ok()) material->luminance_texture = *use;
+  return use.status();
+}
+
 absl::StatusOr<Material> ReadMaterial(const tinygltf::Material& gltf, const std::string& where,
                                       TextureLoader* textures, UnreadFeatures* unread) {
   Material material;
-  const tinygltf::PbrMetallicRoughness& pbr = gltf.pbrMetallicRoughness;
-  material.reflectance = ToRgb(pbr.baseColorFactor);
-  if (gltf.alphaMode == "MASK") material.alpha_cutoff = gltf.alphaCutoff;
-  material.alpha = pbr.baseColorFactor[3];
-  absl::StatusOr<TextureUse> use =
-      ReadTexture(pbr.baseColorTexture, material.reflectance != Rgb{} || material.alpha_cutoff > 0,
-                  "base colour texture", textures, unread);
-  if (!use.ok()) return use.status();
-  material.reflectance_texture = use->texture;
-  material.reflectance_uv = use->uv;
-
-  absl::StatusOr<double> strength = ExtensionNumber(
-      gltf.extensions_json_string, "KHR_materials_emissive_strength", "emissiveStrength", 1, where);
-  if (!strength.ok()) return strength.status();
-  material.luminance = ToRgb(gltf.emissiveFactor) * *strength;
-  use = ReadTexture(gltf.emissiveTexture, material.luminance != Rgb{}, "emissive texture", textures,
-                    unread);
-  if (!use.ok()) return use.status();
-  material.luminance_texture = use->texture;
-  material.luminance_uv = use->uv;
+  absl::Status status = ReadReflectance(gltf, where, textures, unread, &material);
+  if (status.ok()) status = ReadLuminance(gltf, where, textures, unread, &material);
+  if (!status.ok()) return status;
   material.two_sided = gltf.doubleSided;
   CountUnread(gltf, unread);
   return material;

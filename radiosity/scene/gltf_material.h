@@ -13,8 +13,9 @@
 namespace lambert {
 
 // One Material for each of the file; what `used` does not mark keeps its defaults, so that nothing
-// is decoded for it. Base colour is taken as diffuse reflectance, whatever the metalness; emission
-// is emissiveFactor * emissiveStrength.
+// is decoded for it. Base colour (or the diffuse one of KHR_materials_pbrSpecularGlossiness) is
+// taken as diffuse reflectance, whatever the metalness, times the share that is not transmitted;
+// emission is emissiveFactor * emissiveStrength.
 absl::StatusOr<std::vector<Material>> ReadMaterials(const tinygltf::Model& model,
                                                     const std::vector<bool>& used,
                                                     TextureLoader* textures,

@@ -1,7 +1,10 @@
 #include "radiosity/scene/gltf_mesh.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 
 #include "absl/container/flat_hash_map.h"
 #include "absl/strings/str_cat.h"
@@ -13,11 +16,6 @@ namespace lambert {
 namespace {
 
 constexpr char kExportAgain[] = "export the file again";
-
-bool IsTriangleMode(int mode) {
-  return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
-         mode == TINYGLTF_MODE_TRIANGLE_FAN;
-}
 
 uint64_t TriangleCount(int mode, uint64_t vertices) {
   if (mode == TINYGLTF_MODE_TRIANGLES) return vertices / 3;
@@ -38,8 +36,8 @@ std::array<uint64_t, 3> TriangleCorners(int mode, uint64_t t) {
 
 // The accessors of one primitive.
 struct Attributes {
-  std::optional<AccessorReader> indices, positions;
-  std::array<std::optional<AccessorReader>, 2> uv;
+  std::optional<AccessorReader> indices, positions, colors;
+  std::map<int, AccessorReader> uv;  // by set
 
   uint64_t ListedVertices() const { return indices ? indices->count() : positions->count(); }
 };
@@ -51,23 +49,57 @@ absl::Status OpenAccessor(const tinygltf::Model& model, int accessor, int type,
   return made.status();
 }
 
+// The sets of texture coordinates to read: the two that unwrapped scenes have, and those of the
+// material's textures.
+std::set<int> UvSets(const std::vector<Material>& materials, int material) {
+  std::set<int> sets = {0, 1};
+  if (material < 0) return sets;
+  for (const TextureUse& use :
+       {materials[material].reflectance_texture, materials[material].luminance_texture}) {
+    if (use.texture >= 0) sets.insert(use.uv_set);
+  }
+  return sets;
+}
+
+// Attribute `name` of type `type` with an element for each position, if it is there.
+absl::Status OpenAttribute(const tinygltf::Model& model, const tinygltf::Primitive& gltf,
+                           const std::string& name, int type, const Attributes& attributes,
+                           const std::string& where, std::optional<AccessorReader>* reader) {
+  const auto found = gltf.attributes.find(name);
+  if (found == gltf.attributes.end()) return absl::OkStatus();
+  absl::Status status = OpenAccessor(model, found->second, type, reader);
+  if (status.ok() && (*reader)->count() < attributes.positions->count()) {
+    return SceneError(where, absl::StrCat("it has fewer ", name, " than positions"), kExportAgain);
+  }
+  return status;
+}
+
+// COLOR_0 has three components or four.
+int ColorType(const tinygltf::Model& model, const tinygltf::Primitive& gltf) {
+  const auto found = gltf.attributes.find("COLOR_0");
+  const bool exists = found != gltf.attributes.end() && found->second >= 0 &&
+                      found->second < static_cast<int>(model.accessors.size());
+  return exists && model.accessors[found->second].type == TINYGLTF_TYPE_VEC3 ? TINYGLTF_TYPE_VEC3
+                                                                             : TINYGLTF_TYPE_VEC4;
+}
+
 absl::StatusOr<Attributes> OpenAttributes(const tinygltf::Model& model,
                                           const tinygltf::Primitive& gltf,
-                                          const std::string& where) {
+                                          const std::set<int>& uv_sets, const std::string& where) {
   Attributes attributes;
   absl::Status status = OpenAccessor(model, gltf.attributes.at("POSITION"), TINYGLTF_TYPE_VEC3,
                                      &attributes.positions);
   if (!status.ok()) return status;
-  for (int set = 0; set < 2; ++set) {
-    const auto uv = gltf.attributes.find(absl::StrCat("TEXCOORD_", set));
-    if (uv == gltf.attributes.end()) continue;
-    status = OpenAccessor(model, uv->second, TINYGLTF_TYPE_VEC2, &attributes.uv[set]);
+  for (int set : uv_sets) {
+    std::optional<AccessorReader> uv;
+    status = OpenAttribute(model, gltf, absl::StrCat("TEXCOORD_", set), TINYGLTF_TYPE_VEC2,
+                           attributes, where, &uv);
     if (!status.ok()) return status;
-    if (attributes.uv[set]->count() < attributes.positions->count()) {
-      return SceneError(where, absl::StrCat("it has fewer TEXCOORD_", set, " than positions"),
-                        kExportAgain);
-    }
+    if (uv) attributes.uv.emplace(set, *std::move(uv));
   }
+  status = OpenAttribute(model, gltf, "COLOR_0", ColorType(model, gltf), attributes, where,
+                         &attributes.colors);
+  if (!status.ok()) return status;
   if (gltf.indices < 0) return attributes;
   status = OpenAccessor(model, gltf.indices, TINYGLTF_TYPE_SCALAR, &attributes.indices);
   if (!status.ok()) return status;
@@ -86,27 +118,48 @@ class VertexCopier {
   VertexCopier(const Attributes& attributes, Primitive* primitive)
       : attributes_(attributes), primitive_(primitive) {}
 
-  // Index in the primitive of vertex `i` of the file; nullopt where its position is not finite.
-  std::optional<uint32_t> Copy(uint32_t i) {
+  // Index in the primitive of vertex `i` of the file.
+  absl::StatusOr<uint32_t> Copy(uint32_t i, const std::string& where) {
     const uint32_t next = static_cast<uint32_t>(primitive_->positions.size());
     const auto [it, is_new] = copied_.try_emplace(i, next);
     if (!is_new) return it->second;
     std::array<float, 3> position;
     attributes_.positions->Floats(i, position.data());
     for (float x : position) {
-      if (!std::isfinite(x)) return std::nullopt;
+      if (!std::isfinite(x)) {
+        return SceneError(where, absl::StrCat("position ", i, " is not finite"), kExportAgain);
+      }
     }
     primitive_->positions.push_back(position);
-    for (int set = 0; set < 2; ++set) {
-      if (!attributes_.uv[set]) continue;
+    for (const auto& [set, reader] : attributes_.uv) {
       std::array<float, 2> uv;
-      attributes_.uv[set]->Floats(i, uv.data());
+      reader.Floats(i, uv.data());
       primitive_->uv[set].push_back(uv);
+    }
+    if (attributes_.colors) {
+      absl::Status status = CopyColor(i, where);
+      if (!status.ok()) return status;
     }
     return next;
   }
 
  private:
+  absl::Status CopyColor(uint32_t i, const std::string& where) {
+    std::array<float, 4> color{1, 1, 1, 1};
+    attributes_.colors->Floats(i, color.data());
+    for (float x : color) {
+      if (!std::isfinite(x) || x < 0) {
+        return SceneError(where, absl::StrCat("colour ", i, " is negative or not finite"),
+                          "give it values from 0 to 1");
+      }
+    }
+    const float largest = *std::max_element(color.begin(), color.end());
+    if (largest > 1) ++primitive_->clamped_colors;
+    for (float& x : color) x = std::min(x, 1.0f);
+    primitive_->colors.push_back(color);
+    return absl::OkStatus();
+  }
+
   const Attributes& attributes_;
   Primitive* primitive_;
   absl::flat_hash_map<uint32_t, uint32_t> copied_;
@@ -130,10 +183,8 @@ absl::Status ReadTriangles(const Attributes& attributes, const VertexNormals& no
                                        attributes.positions->count()),
                           kExportAgain);
       }
-      const std::optional<uint32_t> vertex = copier.Copy(static_cast<uint32_t>(i));
-      if (!vertex) {
-        return SceneError(where, absl::StrCat("position ", i, " is not finite"), kExportAgain);
-      }
+      const absl::StatusOr<uint32_t> vertex = copier.Copy(static_cast<uint32_t>(i), where);
+      if (!vertex.ok()) return vertex.status();
       triangle[k] = *vertex;
       corners[k] = FromFloats(primitive->positions[*vertex]);
     }
@@ -144,13 +195,11 @@ absl::Status ReadTriangles(const Attributes& attributes, const VertexNormals& no
 }
 
 void CountUnread(const tinygltf::Primitive& gltf, UnreadFeatures* unread) {
-  if (gltf.attributes.count("COLOR_0") > 0) {
-    unread->Add("vertex colours", "primitive", "left out of the reflectance");
-  }
   if (!gltf.targets.empty()) unread->Add("morph targets", "primitive", "shown at rest");
 }
 
 absl::StatusOr<Primitive> ReadPrimitive(const tinygltf::Model& model,
+                                        const std::vector<Material>& materials,
                                         const tinygltf::Primitive& gltf, const std::string& where,
                                         int64_t* triangles_left, UnreadFeatures* unread) {
   Primitive primitive;
@@ -170,7 +219,8 @@ absl::StatusOr<Primitive> ReadPrimitive(const tinygltf::Model& model,
                       kExportAgain);
   }
   primitive.material = gltf.material;
-  absl::StatusOr<Attributes> attributes = OpenAttributes(model, gltf, where);
+  absl::StatusOr<Attributes> attributes =
+      OpenAttributes(model, gltf, UvSets(materials, gltf.material), where);
   if (!attributes.ok()) return attributes.status();
   const uint64_t count = TriangleCount(gltf.mode, attributes->ListedVertices());
   if (count > static_cast<uint64_t>(*triangles_left)) {
@@ -188,15 +238,20 @@ absl::StatusOr<Primitive> ReadPrimitive(const tinygltf::Model& model,
 
 }  // namespace
 
-absl::StatusOr<Mesh> ReadMesh(const tinygltf::Model& model, int index, int64_t most_triangles,
-                              UnreadFeatures* unread) {
+bool IsTriangleMode(int mode) {
+  return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+         mode == TINYGLTF_MODE_TRIANGLE_FAN;
+}
+
+absl::StatusOr<Mesh> ReadMesh(const tinygltf::Model& model, const std::vector<Material>& materials,
+                              int index, int64_t most_triangles, UnreadFeatures* unread) {
   const tinygltf::Mesh& gltf = model.meshes[index];
   Mesh mesh;
   mesh.name = gltf.name;
   for (size_t p = 0; p < gltf.primitives.size(); ++p) {
     absl::StatusOr<Primitive> primitive =
-        ReadPrimitive(model, gltf.primitives[p], absl::StrCat("mesh ", index, ", primitive ", p),
-                      &most_triangles, unread);
+        ReadPrimitive(model, materials, gltf.primitives[p],
+                      absl::StrCat("mesh ", index, ", primitive ", p), &most_triangles, unread);
     if (!primitive.ok()) return primitive.status();
     mesh.primitives.push_back(*std::move(primitive));
   }

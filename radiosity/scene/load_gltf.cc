@@ -46,7 +46,7 @@ absl::Status ReadMeshes(const tinygltf::Model& model, const SceneLimits& limits,
   int64_t left = limits.triangles;
   for (const Instance& instance : scene->instances) {
     if (triangles[instance.mesh] < 0) {
-      absl::StatusOr<Mesh> mesh = ReadMesh(model, instance.mesh, left, unread);
+      absl::StatusOr<Mesh> mesh = ReadMesh(model, scene->materials, instance.mesh, left, unread);
       if (!mesh.ok()) return mesh.status();
       triangles[instance.mesh] = 0;
       for (const Primitive& primitive : mesh->primitives) {
@@ -63,28 +63,43 @@ absl::Status ReadMeshes(const tinygltf::Model& model, const SceneLimits& limits,
   return absl::OkStatus();
 }
 
-// Materials that a triangle of the scene has.
+// Materials of the triangles that instances show.
 std::vector<bool> FindUsedMaterials(const tinygltf::Model& model, const Scene& scene) {
-  std::vector<bool> used(model.materials.size());
-  for (const Mesh& mesh : scene.meshes) {
-    for (const Primitive& primitive : mesh.primitives) {
-      if (primitive.material >= 0 && !primitive.triangles.empty()) used[primitive.material] = true;
+  std::vector<bool> used(model.materials.size()), seen(model.meshes.size());
+  for (const Instance& instance : scene.instances) {
+    if (seen[instance.mesh]) continue;
+    seen[instance.mesh] = true;
+    for (const tinygltf::Primitive& primitive : model.meshes[instance.mesh].primitives) {
+      const int material = primitive.material;
+      if (material >= 0 && material < static_cast<int>(used.size()) &&
+          IsTriangleMode(primitive.mode)) {
+        used[material] = true;
+      }
     }
   }
   return used;
 }
 
-void AppendBadNormals(Scene* scene) {
-  int64_t bad = 0;
+void AppendVertexWarnings(Scene* scene) {
+  int64_t bad_normals = 0, clamped_colors = 0;
   for (const Mesh& mesh : scene->meshes) {
-    for (const Primitive& primitive : mesh.primitives) bad += primitive.bad_normals;
+    for (const Primitive& primitive : mesh.primitives) {
+      bad_normals += primitive.bad_normals;
+      clamped_colors += primitive.clamped_colors;
+    }
   }
-  if (bad == 0) return;
-  scene->warnings.push_back(
-      {"BAD_VERTEX_NORMALS",
-       absl::StrCat("the vertex normals of ", bad,
-                    " triangle(s) are not of length 1 or point to the back; sides come from the "
-                    "winding, so nothing was changed")});
+  if (bad_normals > 0) {
+    scene->warnings.push_back(
+        {"BAD_VERTEX_NORMALS",
+         absl::StrCat("the vertex normals of ", bad_normals,
+                      " triangle(s) are not of length 1 or point to the back; sides come from the "
+                      "winding, so nothing was changed")});
+  }
+  if (clamped_colors > 0) {
+    scene->warnings.push_back(
+        {"REFLECTANCE_CLAMPED", absl::StrCat("the colours of ", clamped_colors,
+                                             " vertices are over 1 and were taken as 1")});
+  }
 }
 
 absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& limits) {
@@ -98,16 +113,17 @@ absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& li
   UnreadFeatures unread;
   status = CheckVersionAndExtensions(*model, &unread);
   if (status.ok()) status = ReadNodes(*model, &scene, &unread);
-  if (status.ok()) status = ReadMeshes(*model, limits, &scene, &unread);
   if (!status.ok()) return status;
   TextureLoader textures(*model, limits, &scene.textures);
   absl::StatusOr<std::vector<Material>> materials =
       ReadMaterials(*model, FindUsedMaterials(*model, scene), &textures, &unread);
   if (!materials.ok()) return materials.status();
   scene.materials = *std::move(materials);
+  status = ReadMeshes(*model, limits, &scene, &unread);
+  if (!status.ok()) return status;
   if (!model->animations.empty()) unread.Add("animations", "file", "shown at rest");
   scene.warnings = unread.Warnings();
-  AppendBadNormals(&scene);
+  AppendVertexWarnings(&scene);
   return scene;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,27 +22,36 @@ struct Texture {
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
 };
 
+// A texture and where a surface meets it: at (row_u . (u, v, 1), row_v . (u, v, 1)) for a vertex
+// whose TEXCOORD_n is (u, v).
+struct TextureUse {
+  int texture = -1;                                      // index into Scene::textures
+  int uv_set = 0;                                        // n
+  std::array<double, 3> row_u{1, 0, 0}, row_v{0, 1, 0};  // KHR_texture_transform
+};
+
 struct Material {
   std::string name;
-  Rgb reflectance{1, 1, 1};      // baseColorFactor, 0..1, multiplies the texture
-  int reflectance_texture = -1;  // index into Scene::textures
-  int reflectance_uv = 0;        // which TEXCOORD_n
-  Rgb luminance;                 // emissiveFactor * emissiveStrength, in the file's unit (nit)
-  int luminance_texture = -1;
-  int luminance_uv = 0;
+  Rgb reflectance{1, 1, 1};  // baseColorFactor, 0..1, multiplies texture and vertex colours
+  TextureUse reflectance_texture;
+  Rgb luminance;  // emissiveFactor * emissiveStrength, in the file's unit (nit)
+  TextureUse luminance_texture;
   bool two_sided = false;
-  // Alpha mode MASK: where alpha times that of the reflectance texture is under the cutoff, there
-  // is no surface. 0: nothing is cut.
+  // Alpha mode MASK: where alpha times those of the reflectance texture and the vertex colours is
+  // under the cutoff, there is no surface. 0: nothing is cut.
   double alpha_cutoff = 0;
   double alpha = 1;  // baseColorFactor
 };
 
 struct Primitive {
-  std::vector<std::array<float, 3>> positions;          // local coordinates
-  std::vector<std::array<uint32_t, 3>> triangles;       // counter-clockwise seen from the front
-  std::array<std::vector<std::array<float, 2>>, 2> uv;  // TEXCOORD_0 and _1, empty if absent
-  int material = -1;                                    // -1: the glTF default material
-  int64_t bad_normals = 0;                              // triangles (VertexNormals); a warning's
+  std::vector<std::array<float, 3>> positions;     // local coordinates
+  std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise seen from the front
+  // By n, one of each vertex: TEXCOORD_0 and _1 where they are there, and those of its textures.
+  std::map<int, std::vector<std::array<float, 2>>> uv;
+  std::vector<std::array<float, 4>> colors;  // COLOR_0: linear RGBA, 0..1; empty: white, opaque
+  int material = -1;                         // -1: the glTF default material
+  int64_t bad_normals = 0;                   // triangles (VertexNormals); a warning's
+  int64_t clamped_colors = 0;                // vertices with a colour over 1; a warning's
 };
 
 struct Mesh {

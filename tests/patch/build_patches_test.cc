@@ -251,7 +251,7 @@ TEST(BuildPatches, PointLightsOnAPatchAreNamedAndOnesNearByAreNot) {
 TEST(BuildPatches, TextureWithoutCoordinatesIsRefused) {
   Scene scene = MakeFurnace(0.5);
   scene.textures.push_back({1, 1, {188, 188, 188, 255}});
-  scene.materials[0].reflectance_texture = 0;
+  scene.materials[0].reflectance_texture.texture = 0;
   EXPECT_NE(BuildPatches(scene, {}).status().message().find("TEXCOORD_0"), std::string::npos);
 }
 
@@ -262,7 +262,7 @@ Scene MaskedSquare(double cutoff) {
     scene.meshes[0].primitives[0].uv[0].push_back({p[0], p[1]});
   }
   scene.textures.push_back({2, 1, {0, 255, 0, 0, 255, 0, 0, 255}});
-  scene.materials[0].reflectance_texture = 0;
+  scene.materials[0].reflectance_texture.texture = 0;
   scene.materials[0].alpha_cutoff = cutoff;
   return scene;
 }
@@ -285,13 +285,45 @@ TEST(BuildPatches, MaskLeavesTheOpaqueHalfOfASquareThatIsSplit) {
   EXPECT_FALSE(HasWarning(*patches, "PARTLY_CUT_PATCHES"));
 }
 
+TEST(BuildPatches, TexturesAreMetWhereTheirTransformPutsThem) {
+  Scene scene = MaskedSquare(0);
+  TextureUse& use = scene.materials[0].reflectance_texture;
+  const auto reflectance = [&scene] { return PatchesOf(scene).reflectance[0]; };
+  use.row_u = {0.5, 0, 0};  // the green texel on the left
+  EXPECT_EQ(reflectance(), (Rgb{0, 0.5, 0}));
+  use.row_u = {0.5, 0, 0.5};
+  EXPECT_EQ(reflectance(), (Rgb{0.5, 0, 0}));
+  scene.meshes[0].primitives[0].uv[3] = scene.meshes[0].primitives[0].uv[0];
+  for (auto& uv : scene.meshes[0].primitives[0].uv[3]) uv = {0.1f, 0};
+  use = {.texture = 0, .uv_set = 3};
+  EXPECT_EQ(reflectance(), (Rgb{0, 0.5, 0}));
+}
+
+TEST(BuildPatches, VertexColoursMultiplyTheReflectanceAndSplitWithTheTriangle) {
+  Scene scene = SceneMaker().Quad({}, {1, 0, 0}, {0, 1, 0}, {{0.5, 0.5, 0.5}, {1, 1, 1}}).Make();
+  for (const auto& p : scene.meshes[0].primitives[0].positions) {
+    scene.meshes[0].primitives[0].colors.push_back({p[0], p[1], 1, 1});
+  }
+  PatchOptions options;
+  options.max_edge_m = 0.3;
+  const absl::StatusOr<PatchSet> patches = BuildPatches(scene, options);
+  ASSERT_TRUE(patches.ok()) << patches.status();
+  for (PatchIndex i = 0; i < patches->size(); ++i) {
+    const Vec3 centre = PatchCentroid(*patches, i) + patches->origin;
+    EXPECT_NEAR(patches->reflectance[i].r, centre.x / 2, 1e-7);
+    EXPECT_NEAR(patches->reflectance[i].g, centre.y / 2, 1e-7);
+    EXPECT_EQ(patches->reflectance[i].b, 0.5);
+    EXPECT_EQ(patches->exitance_lm_per_m2[i].r, PatchesOf(scene).exitance_lm_per_m2[0].r);
+  }
+}
+
 TEST(BuildPatches, AMaskThatCutsEverythingIsSaidToBeTheReason) {
   Scene scene = MaskedSquare(0.5);
   scene.materials[0].alpha = 0.49;
   const absl::Status status = BuildPatches(scene, {}).status();
   EXPECT_EQ(ReasonOf(status), "NO_TRIANGLES");
   EXPECT_NE(status.message().find("MASK"), std::string::npos) << status;
-  scene.materials[0].reflectance_texture = -1;
+  scene.materials[0].reflectance_texture.texture = -1;
   EXPECT_EQ(ReasonOf(BuildPatches(scene, {}).status()), "NO_TRIANGLES");
   scene.materials[0].alpha = 0.5;
   EXPECT_EQ(PatchesOf(scene).size(), 2);

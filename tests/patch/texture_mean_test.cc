@@ -24,6 +24,15 @@ Texture Checker(int size) {
   return texture;
 }
 
+Rgb TextureMean(const Texture& texture, const std::array<Uv, 3>& uv, int samples) {
+  return MeanOver({.texture = &texture, .uv = uv}, samples).mean;
+}
+
+// Where texels of `least_alpha` or more are surface.
+MaskedMean Masked(const Texture& texture, const std::array<Uv, 3>& uv, int least_alpha) {
+  return MeanOver({.texture = &texture, .uv = uv}, 512, 1, least_alpha / 255.0);
+}
+
 TEST(SrgbToLinear, HitsTheStandardsValues) {
   EXPECT_EQ(SrgbToLinear(0), 0);
   EXPECT_EQ(SrgbToLinear(255), 1);
@@ -70,19 +79,63 @@ Texture HalfCut() { return {2, 1, {0, 255, 0, 127, 255, 0, 0, 128}}; }
 constexpr std::array<Uv, 3> kUpperHalf = {Uv{0, 0}, Uv{1, 1}, Uv{0, 1}};
 
 TEST(TextureMean, OfTexelsThatAreNotCutLeavesOutTheOthers) {
-  EXPECT_EQ(TextureMean(HalfCut(), kLowerHalf, 512, 128), (Rgb{1, 0, 0}));
-  EXPECT_EQ(TextureMean(HalfCut(), kLowerHalf, 512, 129), (Rgb{}));
-  EXPECT_EQ(TextureMean(HalfCut(), kLowerHalf, 512, 127), TextureMean(HalfCut(), kLowerHalf, 512));
+  EXPECT_EQ(Masked(HalfCut(), kLowerHalf, 128).mean, (Rgb{1, 0, 0}));
+  EXPECT_EQ(Masked(HalfCut(), kLowerHalf, 129).mean, (Rgb{}));
+  EXPECT_EQ(Masked(HalfCut(), kLowerHalf, 127).mean, TextureMean(HalfCut(), kLowerHalf, 512));
 }
 
-TEST(TextureCoverage, IsTheShareOfTexelsOfThatAlphaOrMore) {
+TEST(TextureMean, CoverageIsTheShareOfTexelsOfThatAlphaOrMore) {
   for (const auto& [least_alpha, both] : {std::pair{127, 2.0}, {128, 1.0}, {129, 0.0}}) {
-    EXPECT_NEAR(TextureCoverage(HalfCut(), kLowerHalf, 512, least_alpha) +
-                    TextureCoverage(HalfCut(), kUpperHalf, 512, least_alpha),
+    EXPECT_NEAR(Masked(HalfCut(), kLowerHalf, least_alpha).coverage +
+                    Masked(HalfCut(), kUpperHalf, least_alpha).coverage,
                 both, 5e-3);
   }
   // Of the right one of the two triangles three quarters lie in the right one of the texels.
-  EXPECT_NEAR(TextureCoverage(HalfCut(), kLowerHalf, 512, 128), 0.75, 5e-3);
+  EXPECT_NEAR(Masked(HalfCut(), kLowerHalf, 128).coverage, 0.75, 5e-3);
+}
+
+TEST(TextureMean, ACutoffIsComparedAsAFloat) {
+  struct Case {
+    double cutoff, alpha;
+    int least_alpha;  // 256: all is cut
+  };
+  for (const Case& c : {Case{0, 1, 0}, Case{0, 0, 0}, Case{0.5, 1, 128}, Case{128 / 255.0, 1, 128},
+                        Case{0.501960814, 1, 128}, Case{0.6, 0.7, 219}, Case{1, 1, 255},
+                        Case{1.1, 1, 256}, Case{0.5, 0, 256}}) {
+    for (int code : {0, 127, 128, 218, 219, 254, 255}) {
+      const Texture texture = Uniform(1, 1, static_cast<uint8_t>(code));
+      EXPECT_EQ(MeanOver({.texture = &texture}, 512, c.alpha, c.cutoff).coverage,
+                code >= c.least_alpha ? 1 : 0)
+          << c.cutoff << " " << c.alpha << " " << code;
+    }
+  }
+}
+
+TEST(TextureMean, VertexColoursAreTheirMeanAndMultiplyTheTexture) {
+  PaintedTriangle triangle{.colors = {{{1, 0, 0, 1}, {0, 1, 0, 1}, {0.5, 0.5, 1, 1}}}};
+  const Rgb mean = MeanOver(triangle, 512).mean;
+  EXPECT_NEAR(mean.r, 0.5, 1e-15);
+  EXPECT_NEAR(mean.g, 0.5, 1e-15);
+  EXPECT_NEAR(mean.b, 1 / 3.0, 1e-15);
+  // Black left of the middle and white right of it; red grows from 0 on the left to 1 on the right.
+  const Texture halves = {2, 1, {0, 0, 0, 255, 255, 255, 255, 255}};
+  Rgb sum;
+  for (const std::array<Uv, 3>& uv : {kLowerHalf, kUpperHalf}) {
+    triangle = {.texture = &halves, .uv = uv};
+    for (int k = 0; k < 3; ++k) triangle.colors[k] = {static_cast<float>(uv[k][0]), 1, 1, 1};
+    sum = sum + MeanOver(triangle, 512).mean;
+  }
+  EXPECT_NEAR(sum.r / 2, 3 / 8.0, 2e-3) << "the integral of u over the right half";
+  EXPECT_NEAR(sum.g / 2, 1 / 2.0, 2e-3);
+}
+
+TEST(TextureMean, AlphaOfVertexColoursCuts) {
+  PaintedTriangle triangle{.colors = {{{1, 1, 1, 1}, {1, 1, 1, 0}, {1, 1, 1, 0}}}};
+  // Alpha is over one half in the corner triangle of half the height: a quarter of the area.
+  EXPECT_NEAR(MeanOver(triangle, 512, 1, 0.5).coverage, 0.25, 0.02);
+  triangle.colors[0] = {1, 1, 1, 0};
+  EXPECT_EQ(MeanOver(triangle, 512, 1, 0.5).coverage, 0);
+  EXPECT_EQ(MeanOver(triangle, 512).coverage, 1) << "no mask";
 }
 
 TEST(TextureMean, HugeCoordinatesStayBoundedInTimeAndRange) {
@@ -96,37 +149,17 @@ TEST(MakePatchMaterials, LeavesOutTexturesThatNoFactorShows) {
   scene.textures.push_back(Uniform(1, 1, 0));
   scene.materials.resize(1);
   scene.materials[0].reflectance = {0, 0, 0};
-  scene.materials[0].reflectance_texture = 0;
-  scene.materials[0].luminance_texture = 0;
+  scene.materials[0].reflectance_texture.texture = 0;
+  scene.materials[0].luminance_texture.texture = 0;
   std::vector<Warning> warnings;
   const auto materials = MakePatchMaterials(scene, false, &warnings);
   ASSERT_TRUE(materials.ok());
-  EXPECT_EQ((*materials)[1].reflectance_texture, nullptr);
-  EXPECT_EQ((*materials)[1].exitance_texture, nullptr);
+  EXPECT_EQ((*materials)[1].reflectance_texture.texture, -1);
+  EXPECT_EQ((*materials)[1].exitance_texture.texture, -1);
   EXPECT_EQ((*materials)[0].reflectance, (Rgb{1, 1, 1}));
-}
-
-TEST(MakePatchMaterials, CutTexelsUnderTheCutoffAlsoOfBlackTextures) {
-  struct Case {
-    double cutoff, alpha;
-    int least_alpha;
-  };
-  for (const Case& c : {Case{0, 1, 0}, Case{0, 0, 0}, Case{0.5, 1, 128}, Case{128 / 255.0, 1, 128},
-                        Case{0.501960814, 1, 128}, Case{0.6, 0.7, 219}, Case{1, 1, 255},
-                        Case{1.1, 1, 256}, Case{0.5, 0, 256}}) {
-    Scene scene;
-    scene.textures.push_back(Uniform(1, 1, 0));
-    scene.materials.resize(1);
-    scene.materials[0].reflectance = {0, 0, 0};
-    scene.materials[0].reflectance_texture = 0;
-    scene.materials[0].alpha_cutoff = c.cutoff;
-    scene.materials[0].alpha = c.alpha;
-    std::vector<Warning> warnings;
-    const PatchMaterial made = (*MakePatchMaterials(scene, false, &warnings))[1];
-    EXPECT_EQ(made.least_alpha, c.least_alpha) << c.cutoff << " " << c.alpha;
-    EXPECT_EQ(made.alpha_texture, c.least_alpha > 0 ? &scene.textures[0] : nullptr);
-    EXPECT_EQ(made.reflectance_texture, nullptr);
-  }
+  scene.materials[0].alpha_cutoff = 0.5;
+  EXPECT_EQ((*MakePatchMaterials(scene, false, &warnings))[1].reflectance_texture.texture, 0)
+      << "its alpha shows";
 }
 
 }  // namespace
