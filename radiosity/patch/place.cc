@@ -10,6 +10,7 @@ absl::Status ForEachTriangle(const Scene& scene, Vec3 origin,
     world.translation = world.translation - origin;
     const bool mirrors = world.Determinant() < 0;
     const Mesh& mesh = scene.meshes[instance.mesh];
+    const int of_file = mesh.pose_of < 0 ? instance.mesh : mesh.pose_of;
     for (size_t p = 0; p < mesh.primitives.size(); ++p) {
       const Primitive& primitive = mesh.primitives[p];
       for (size_t t = 0; t < primitive.triangles.size(); ++t) {
@@ -20,8 +21,7 @@ absl::Status ForEachTriangle(const Scene& scene, Vec3 origin,
           placed.corners[k] = world.Point(FromFloats(primitive.positions[placed.vertices[k]]));
         }
         placed.primitive = &primitive;
-        placed.source = {instance.node, instance.mesh, static_cast<int32_t>(p),
-                         static_cast<int32_t>(t)};
+        placed.source = {instance.node, of_file, static_cast<int32_t>(p), static_cast<int32_t>(t)};
         absl::Status status = visit(placed);
         if (!status.ok()) return status;
       }

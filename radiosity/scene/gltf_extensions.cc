@@ -22,6 +22,7 @@ struct KnownExtension {
 };
 
 constexpr KnownExtension kKnown[] = {
+    {"EXT_mesh_gpu_instancing", Support::kRead},
     {"KHR_lights_punctual", Support::kCounted},
     {"KHR_materials_anisotropy", Support::kLeftOut},
     {"KHR_materials_clearcoat", Support::kLeftOut},

@@ -115,22 +115,22 @@ absl::StatusOr<Attributes> OpenAttributes(const tinygltf::Model& model,
 // Copies vertices as triangles ask for them: those that none uses cost nothing.
 class VertexCopier {
  public:
-  VertexCopier(const Attributes& attributes, Primitive* primitive)
-      : attributes_(attributes), primitive_(primitive) {}
+  VertexCopier(const Attributes& attributes, const PosedPositions& positions, Primitive* primitive)
+      : attributes_(attributes), positions_(positions), primitive_(primitive) {}
 
   // Index in the primitive of vertex `i` of the file.
   absl::StatusOr<uint32_t> Copy(uint32_t i, const std::string& where) {
     const uint32_t next = static_cast<uint32_t>(primitive_->positions.size());
     const auto [it, is_new] = copied_.try_emplace(i, next);
     if (!is_new) return it->second;
-    std::array<float, 3> position;
-    attributes_.positions->Floats(i, position.data());
-    for (float x : position) {
+    const absl::StatusOr<std::array<float, 3>> position = positions_.At(i, where);
+    if (!position.ok()) return position.status();
+    for (float x : *position) {
       if (!std::isfinite(x)) {
         return SceneError(where, absl::StrCat("position ", i, " is not finite"), kExportAgain);
       }
     }
-    primitive_->positions.push_back(position);
+    primitive_->positions.push_back(*position);
     for (const auto& [set, reader] : attributes_.uv) {
       std::array<float, 2> uv;
       reader.Floats(i, uv.data());
@@ -161,14 +161,16 @@ class VertexCopier {
   }
 
   const Attributes& attributes_;
+  const PosedPositions& positions_;
   Primitive* primitive_;
   absl::flat_hash_map<uint32_t, uint32_t> copied_;
 };
 
-absl::Status ReadTriangles(const Attributes& attributes, const VertexNormals& normals, int mode,
-                           const std::string& where, Primitive* primitive) {
+absl::Status ReadTriangles(const Attributes& attributes, const PosedPositions& positions,
+                           const VertexNormals& normals, int mode, const std::string& where,
+                           Primitive* primitive) {
   const uint64_t triangles = TriangleCount(mode, attributes.ListedVertices());
-  VertexCopier copier(attributes, primitive);
+  VertexCopier copier(attributes, positions, primitive);
   primitive->triangles.reserve(triangles);
   for (uint64_t t = 0; t < triangles; ++t) {
     std::array<uint32_t, 3> triangle;
@@ -188,20 +190,30 @@ absl::Status ReadTriangles(const Attributes& attributes, const VertexNormals& no
       triangle[k] = *vertex;
       corners[k] = FromFloats(primitive->positions[*vertex]);
     }
-    if (normals.IsBad(vertices, corners)) ++primitive->bad_normals;
+    // Normals are those of the file: what a pose moves is not compared with them.
+    if (!positions.moves() && normals.IsBad(vertices, corners)) ++primitive->bad_normals;
     primitive->triangles.push_back(triangle);
   }
   return absl::OkStatus();
 }
 
-void CountUnread(const tinygltf::Primitive& gltf, UnreadFeatures* unread) {
-  if (!gltf.targets.empty()) unread->Add("morph targets", "primitive", "shown at rest");
+// Morph targets at work that move more than positions and what follows them.
+void CountUnread(const tinygltf::Primitive& gltf, const Pose& pose, UnreadFeatures* unread) {
+  for (size_t t = 0; t < std::min(gltf.targets.size(), pose.weights.size()); ++t) {
+    for (const auto& [name, accessor] : gltf.targets[t]) {
+      if (pose.weights[t] == 0 || name == "POSITION" || name == "NORMAL" || name == "TANGENT") {
+        continue;
+      }
+      unread->Add("morph targets of texture coordinates and colours", "target", "left out");
+    }
+  }
 }
 
 absl::StatusOr<Primitive> ReadPrimitive(const tinygltf::Model& model,
                                         const std::vector<Material>& materials,
                                         const tinygltf::Primitive& gltf, const std::string& where,
-                                        int64_t* triangles_left, UnreadFeatures* unread) {
+                                        const Pose& pose, MeshBudget* budget,
+                                        UnreadFeatures* unread) {
   Primitive primitive;
   if (gltf.mode < TINYGLTF_MODE_POINTS || gltf.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
     return SceneError(where, absl::StrCat("its mode ", gltf.mode, " does not exist"), kExportAgain);
@@ -223,15 +235,18 @@ absl::StatusOr<Primitive> ReadPrimitive(const tinygltf::Model& model,
       OpenAttributes(model, gltf, UvSets(materials, gltf.material), where);
   if (!attributes.ok()) return attributes.status();
   const uint64_t count = TriangleCount(gltf.mode, attributes->ListedVertices());
-  if (count > static_cast<uint64_t>(*triangles_left)) {
+  if (count > static_cast<uint64_t>(budget->triangles)) {
     return MakeError(absl::StatusCode::kInvalidArgument,
                      {"SCENE_TOO_LARGE", where, "the scene has more triangles than are allowed",
                       "simplify its meshes"});
   }
-  *triangles_left -= static_cast<int64_t>(count);
-  CountUnread(gltf, unread);
-  absl::Status status =
-      ReadTriangles(*attributes, VertexNormals(model, gltf), gltf.mode, where, &primitive);
+  budget->triangles -= static_cast<int64_t>(count);
+  const absl::StatusOr<PosedPositions> positions =
+      PosedPositions::Open(model, gltf, pose, *attributes->positions, where, &budget->moves);
+  if (!positions.ok()) return positions.status();
+  CountUnread(gltf, pose, unread);
+  absl::Status status = ReadTriangles(*attributes, *positions, VertexNormals(model, gltf),
+                                      gltf.mode, where, &primitive);
   if (!status.ok()) return status;
   return primitive;
 }
@@ -244,14 +259,15 @@ bool IsTriangleMode(int mode) {
 }
 
 absl::StatusOr<Mesh> ReadMesh(const tinygltf::Model& model, const std::vector<Material>& materials,
-                              int index, int64_t most_triangles, UnreadFeatures* unread) {
+                              int index, const Pose& pose, MeshBudget* budget,
+                              UnreadFeatures* unread) {
   const tinygltf::Mesh& gltf = model.meshes[index];
   Mesh mesh;
   mesh.name = gltf.name;
   for (size_t p = 0; p < gltf.primitives.size(); ++p) {
     absl::StatusOr<Primitive> primitive =
         ReadPrimitive(model, materials, gltf.primitives[p],
-                      absl::StrCat("mesh ", index, ", primitive ", p), &most_triangles, unread);
+                      absl::StrCat("mesh ", index, ", primitive ", p), pose, budget, unread);
     if (!primitive.ok()) return primitive.status();
     mesh.primitives.push_back(*std::move(primitive));
   }

@@ -9,6 +9,7 @@
 #include "radiosity/scene/gltf_container.h"
 #include "radiosity/scene/gltf_extensions.h"
 #include "radiosity/scene/gltf_forest.h"
+#include "radiosity/scene/gltf_transform.h"
 
 namespace lambert {
 namespace {
@@ -17,46 +18,6 @@ constexpr char kExportAgain[] = "export the file again";
 
 absl::Status NodeError(int node, const std::string& message) {
   return SceneError(absl::StrCat("node ", node), message, kExportAgain);
-}
-
-bool IsFinite(const Transform& t) {
-  return lambert::IsFinite(t.x) && lambert::IsFinite(t.y) && lambert::IsFinite(t.z) &&
-         lambert::IsFinite(t.translation);
-}
-
-Transform FromRotation(double x, double y, double z, double w) {
-  return {{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
-          {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
-          {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)},
-          {}};
-}
-
-absl::StatusOr<Transform> FromMatrix(const std::vector<double>& m, int node) {
-  if (m.size() != 16) return NodeError(node, "its matrix has not 16 numbers");
-  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
-    return NodeError(node, "its matrix is not affine: the last row is not 0 0 0 1");
-  }
-  return Transform{
-      {m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
-}
-
-// Translation * rotation * scale, or the matrix.
-absl::StatusOr<Transform> LocalTransform(const tinygltf::Node& gltf, int node) {
-  if (!gltf.matrix.empty()) return FromMatrix(gltf.matrix, node);
-  const std::vector<double>&t = gltf.translation, &r = gltf.rotation, &s = gltf.scale;
-  if ((!t.empty() && t.size() != 3) || (!r.empty() && r.size() != 4) ||
-      (!s.empty() && s.size() != 3)) {
-    return NodeError(node, "its translation, rotation or scale has a wrong length");
-  }
-  Transform local;
-  if (!r.empty()) {
-    const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
-    if (!(length > 0)) return NodeError(node, "its rotation is zero or not finite");
-    local = FromRotation(r[0] / length, r[1] / length, r[2] / length, r[3] / length);
-  }
-  if (!s.empty()) local = {local.x * s[0], local.y * s[1], local.z * s[2], {}};
-  if (!t.empty()) local.translation = {t[0], t[1], t[2]};
-  return local;
 }
 
 // A name of bounded size that is still UTF-8: names go into every report and message.
@@ -102,8 +63,15 @@ std::optional<Camera> ReadCamera(const tinygltf::Camera& gltf, const Transform& 
 // Walks the default scene, parents before children, and collects what its nodes show.
 class NodeWalker {
  public:
-  NodeWalker(const tinygltf::Model& model, Scene* scene, UnreadFeatures* unread)
-      : model_(model), scene_(scene), unread_(unread) {}
+  NodeWalker(const tinygltf::Model& model, int64_t most_instances, Scene* scene, NodeWorlds* worlds,
+             UnreadFeatures* unread)
+      : model_(model),
+        most_instances_(most_instances),
+        scene_(scene),
+        worlds_(worlds),
+        unread_(unread) {
+    worlds_->resize(model.nodes.size());
+  }
 
   absl::Status Walk(const std::vector<int>& roots) {
     std::vector<std::pair<int, Transform>> open;  // node and its parent's world transform
@@ -115,12 +83,13 @@ class NodeWalker {
       if (!local.ok()) return local.status();
       const Transform world = parent * *local;
       if (!IsFinite(world)) return NodeError(node, "its world transform is not finite");
+      (*worlds_)[node] = world;
       absl::Status status = Show(node, world);
       if (!status.ok()) return status;
       for (int child : model_.nodes[node].children) open.push_back({child, world});
     }
-    std::sort(scene_->instances.begin(), scene_->instances.end(),
-              [](const Instance& a, const Instance& b) { return a.node < b.node; });
+    std::stable_sort(scene_->instances.begin(), scene_->instances.end(),
+                     [](const Instance& a, const Instance& b) { return a.node < b.node; });
     return absl::OkStatus();
   }
 
@@ -130,15 +99,27 @@ class NodeWalker {
     if (gltf.mesh >= static_cast<int>(model_.meshes.size()) || gltf.mesh < -1) {
       return NodeError(node, absl::StrCat("its mesh ", gltf.mesh, " does not exist"));
     }
-    if (gltf.mesh >= 0) {
+    absl::Status status = gltf.mesh >= 0 ? ShowMesh(node, world) : absl::OkStatus();
+    if (status.ok()) status = ShowCamera(node, world);
+    return status.ok() ? ShowLight(node, world) : status;
+  }
+
+  absl::Status ShowMesh(int node, const Transform& world) {
+    const tinygltf::Node& gltf = model_.nodes[node];
+    if (gltf.skin >= 0) {  // its joints say where it is: PosedMesh
       scene_->instances.push_back({node, gltf.mesh, world});
-      if (gltf.skin >= 0) unread_->Add("skins", "node", "shown at rest");
-      if (gltf.extensions.count("EXT_mesh_gpu_instancing") > 0) {
-        unread_->Add("EXT_mesh_gpu_instancing", "node", "shown once");
+      return absl::OkStatus();
+    }
+    const int64_t left = most_instances_ - static_cast<int64_t>(scene_->instances.size());
+    absl::StatusOr<std::vector<Transform>> instances = InstanceTransforms(model_, node, left);
+    if (!instances.ok()) return instances.status();
+    for (const Transform& local : *instances) {
+      scene_->instances.push_back({node, gltf.mesh, world * local});
+      if (!IsFinite(scene_->instances.back().world)) {
+        return NodeError(node, "the transform of an instance is not finite");
       }
     }
-    absl::Status status = ShowCamera(node, world);
-    return status.ok() ? ShowLight(node, world) : status;
+    return absl::OkStatus();
   }
 
   absl::Status ShowCamera(int node, const Transform& world) {
@@ -181,20 +162,23 @@ class NodeWalker {
   }
 
   const tinygltf::Model& model_;
+  const int64_t most_instances_;
   Scene* scene_;
+  NodeWorlds* worlds_;
   UnreadFeatures* unread_;
 };
 
 }  // namespace
 
-absl::Status ReadNodes(const tinygltf::Model& model, Scene* scene, UnreadFeatures* unread) {
+absl::Status ReadNodes(const tinygltf::Model& model, int64_t most_instances, Scene* scene,
+                       NodeWorlds* worlds, UnreadFeatures* unread) {
   std::vector<int> roots;
   absl::Status status = FindRoots(model, &roots);
   if (!status.ok()) return status;
   for (const tinygltf::Node& node : model.nodes) {
     scene->node_names.push_back(ShortName(node.name, unread));
   }
-  return NodeWalker(model, scene, unread).Walk(roots);
+  return NodeWalker(model, most_instances, scene, worlds, unread).Walk(roots);
 }
 
 }  // namespace lambert

@@ -7,6 +7,7 @@
 #include "absl/strings/str_replace.h"
 #include "absl/strings/strip.h"
 #include "radiosity/core/error.h"
+#include "radiosity/scene/gltf_amend.h"
 #include "radiosity/scene/gltf_container.h"
 
 namespace lambert {
@@ -73,7 +74,8 @@ absl::StatusOr<tinygltf::Model> ParseModel(const SceneBundle& bundle) {
   BundleFiles files{&bundle, ""};
   tinygltf::Model model;
   std::string error, warning;
-  const std::string& bytes = bundle.main_bytes;
+  const std::optional<std::string> amended = AmendGltf(bundle.main_bytes);
+  const std::string& bytes = amended ? *amended : bundle.main_bytes;
   bool ok = false;
   try {
     tinygltf::TinyGLTF parser;

@@ -6,6 +6,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "radiosity/core/error.h"
+#include "radiosity/scene/gltf_amend.h"
 #include "radiosity/scene/gltf_container.h"
 #include "radiosity/scene/gltf_extensions.h"
 #include "radiosity/scene/gltf_image.h"
@@ -38,30 +39,95 @@ absl::Status CheckBytes(const SceneBundle& bundle, const SceneLimits& limits) {
   return TooLarge("scene", absl::StrCat(bytes, " bytes, more than ", limits.bytes));
 }
 
-// Reads the meshes that instances show, and refuses more triangles than the limit with instances.
-absl::Status ReadMeshes(const tinygltf::Model& model, const SceneLimits& limits, Scene* scene,
-                        UnreadFeatures* unread) {
-  scene->meshes.resize(model.meshes.size());
-  std::vector<int64_t> triangles(model.meshes.size(), -1);  // -1: not read yet
-  int64_t left = limits.triangles;
-  for (const Instance& instance : scene->instances) {
-    if (triangles[instance.mesh] < 0) {
-      absl::StatusOr<Mesh> mesh = ReadMesh(model, scene->materials, instance.mesh, left, unread);
-      if (!mesh.ok()) return mesh.status();
-      triangles[instance.mesh] = 0;
-      for (const Primitive& primitive : mesh->primitives) {
-        triangles[instance.mesh] += static_cast<int64_t>(primitive.triangles.size());
-      }
-      scene->meshes[instance.mesh] = *std::move(mesh);
-    }
-    left -= triangles[instance.mesh];
-    if (left < 0) {
-      return TooLarge(absl::StrCat("node ", instance.node),
-                      absl::StrCat("the scene has more than ", limits.triangles, " triangles"));
-    }
+int64_t TriangleCount(const Mesh& mesh) {
+  int64_t triangles = 0;
+  for (const Primitive& primitive : mesh.primitives) {
+    triangles += static_cast<int64_t>(primitive.triangles.size());
   }
-  return absl::OkStatus();
+  return triangles;
 }
+
+// True where a node shows its mesh otherwise than others do.
+bool HasOwnPose(const tinygltf::Node& node) { return node.skin >= 0 || !node.weights.empty(); }
+
+// What a primitive weighs in a pose of its own beside its vertices.
+constexpr int64_t kPrimitiveMoves = 100;
+
+// Reads the meshes that instances show, each once in its own pose and once more for each node with
+// another; more triangles than the limit, counted with instances, are refused.
+class MeshReader {
+ public:
+  MeshReader(const tinygltf::Model& model, const SceneLimits& limits, const NodeWorlds& worlds,
+             Scene* scene, UnreadFeatures* unread)
+      : model_(model),
+        worlds_(worlds),
+        scene_(scene),
+        unread_(unread),
+        read_(model.meshes.size()),
+        budget_{limits.triangles, limits.triangles} {}
+
+  absl::Status Read() {
+    scene_->meshes.resize(model_.meshes.size());
+    int posed_node = -1, posed_mesh = -1;
+    for (Instance& instance : scene_->instances) {
+      const bool own_pose = HasOwnPose(model_.nodes[instance.node]);
+      if (own_pose && instance.node == posed_node) {
+        instance.mesh = posed_mesh;
+      } else if (own_pose || !read_[instance.mesh]) {
+        absl::Status status = ReadFor(own_pose, &instance);
+        if (!status.ok()) return status;
+        if (own_pose) posed_node = instance.node, posed_mesh = instance.mesh;
+        continue;  // reading took its triangles
+      }
+      budget_.triangles -= TriangleCount(scene_->meshes[instance.mesh]);
+      if (budget_.triangles < 0) {
+        return TooLarge(absl::StrCat("node ", instance.node),
+                        "the scene has more triangles than are allowed");
+      }
+    }
+    return absl::OkStatus();
+  }
+
+ private:
+  absl::Status ReadFor(bool own_pose, Instance* instance) {
+    const int index = instance->mesh;
+    const absl::StatusOr<Pose> pose =
+        PoseOf(model_, own_pose ? instance->node : -1, index, worlds_);
+    if (!pose.ok()) return pose.status();
+    if (own_pose) {
+      // A copy without triangles takes memory too.
+      budget_.moves -=
+          kPrimitiveMoves * static_cast<int64_t>(model_.meshes[index].primitives.size());
+      if (budget_.moves < 0) {
+        return TooLarge(absl::StrCat("node ", instance->node),
+                        "the scene has more poses of meshes than are allowed");
+      }
+    }
+    absl::StatusOr<Mesh> mesh =
+        ReadMesh(model_, scene_->materials, index, *pose, &budget_, unread_);
+    if (!mesh.ok()) return mesh.status();
+    if (pose->skin != nullptr) {
+      instance->world = Transform{};
+      instance->world.translation = pose->origin;
+    }
+    if (!own_pose) {
+      read_[index] = true;
+      scene_->meshes[index] = *std::move(mesh);
+      return absl::OkStatus();
+    }
+    mesh->pose_of = index;
+    instance->mesh = static_cast<int>(scene_->meshes.size());
+    scene_->meshes.push_back(*std::move(mesh));
+    return absl::OkStatus();
+  }
+
+  const tinygltf::Model& model_;
+  const NodeWorlds& worlds_;
+  Scene* scene_;
+  UnreadFeatures* unread_;
+  std::vector<bool> read_;  // by mesh of the file
+  MeshBudget budget_;
+};
 
 // Materials of the triangles that instances show.
 std::vector<bool> FindUsedMaterials(const tinygltf::Model& model, const Scene& scene) {
@@ -112,14 +178,15 @@ absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& li
   Scene scene;
   UnreadFeatures unread;
   status = CheckVersionAndExtensions(*model, &unread);
-  if (status.ok()) status = ReadNodes(*model, &scene, &unread);
+  NodeWorlds worlds;
+  if (status.ok()) status = ReadNodes(*model, limits.instances, &scene, &worlds, &unread);
   if (!status.ok()) return status;
   TextureLoader textures(*model, limits, &scene.textures);
   absl::StatusOr<std::vector<Material>> materials =
       ReadMaterials(*model, FindUsedMaterials(*model, scene), &textures, &unread);
   if (!materials.ok()) return materials.status();
   scene.materials = *std::move(materials);
-  status = ReadMeshes(*model, limits, &scene, &unread);
+  status = MeshReader(*model, limits, worlds, &scene, &unread).Read();
   if (!status.ok()) return status;
   if (!model->animations.empty()) unread.Add("animations", "file", "shown at rest");
   scene.warnings = unread.Warnings();
@@ -140,6 +207,7 @@ absl::StatusOr<std::vector<std::string>> ReadExternalUris(const std::string& mai
     if (found == gltf.end() || !found->is_array()) continue;
     for (const nlohmann::json& item : *found) {
       if (!item.is_object() || !item.contains("uri") || !item["uri"].is_string()) continue;
+      if (IsFallbackBuffer(item)) continue;
       const std::string uri = item["uri"].get<std::string>();
       if (absl::StartsWith(uri, "data:")) continue;
       if (!IsSafeRelativeUri(uri)) {

@@ -21,7 +21,8 @@ struct SceneBundle {
 // What a parsed scene may take at most; every limit is refused by name.
 struct SceneLimits {
   int64_t bytes = int64_t{2} << 30;    // of all files of the bundle together
-  int64_t triangles = 50'000'000;      // with instances
+  int64_t triangles = 50'000'000;      // with instances; as many vertices may morph targets move
+  int64_t instances = 2'000'000;       // of meshes, by nodes and by EXT_mesh_gpu_instancing
   int64_t image_pixels = 64'000'000;   // of one image, checked in its header before decoding
   int64_t total_pixels = 512'000'000;  // of all images that are decoded
 };

@@ -57,12 +57,13 @@ struct Primitive {
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;  // index = index in the file, also where nothing was read
+  int pose_of = -1;  // the mesh of the file that one node shows in a pose of its own; -1: itself
 };
 
 // A node that shows a mesh.
 struct Instance {
   int node = 0;  // index of the node in the file
-  int mesh = 0;
+  int mesh = 0;  // index into Scene::meshes
   Transform world;
 };
 
@@ -85,7 +86,7 @@ struct PointLight {
 struct Scene {
   std::vector<Texture> textures;
   std::vector<Material> materials;
-  std::vector<Mesh> meshes;
+  std::vector<Mesh> meshes;             // those of the file, then poses of them
   std::vector<Instance> instances;      // of the default scene, in node order
   std::vector<std::string> node_names;  // by node index; "" where the file gives none
   std::vector<Camera> cameras;

@@ -21,8 +21,11 @@ struct Service {
     server::CoordinatorOptions options;
     options.max_store_bytes = 64 << 20;
     options.max_patches = 2000;
-    options.scene = {
-        .bytes = 1 << 20, .triangles = 2000, .image_pixels = 1 << 16, .total_pixels = 1 << 18};
+    options.scene = {.bytes = 1 << 20,
+                     .triangles = 2000,
+                     .instances = 1000,
+                     .image_pixels = 1 << 16,
+                     .total_pixels = 1 << 18};
     options.work.sync_interval = std::chrono::milliseconds(1);
     coordinator = *server::Coordinator::Start(options);
     rpc = *server::RpcServer::Start(coordinator.get(), "");

@@ -9,8 +9,11 @@ namespace lambert {
 
 void FuzzOne(const std::string& bytes) {
   const SceneBundle bundle{"room.glb", bytes, {{"data.bin", bytes}, {"image.png", bytes}}};
-  const SceneLimits limits{
-      .bytes = 1 << 20, .triangles = 10'000, .image_pixels = 1 << 16, .total_pixels = 1 << 18};
+  const SceneLimits limits{.bytes = 1 << 20,
+                           .triangles = 10'000,
+                           .instances = 1000,
+                           .image_pixels = 1 << 16,
+                           .total_pixels = 1 << 18};
   ListExternalFiles(bundle.main_name, bytes).IgnoreError();
   const absl::StatusOr<Scene> scene = LoadGltf(bundle, limits);
   if (!scene.ok()) return;

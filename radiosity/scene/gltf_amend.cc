@@ -1,0 +1,81 @@
+#include "radiosity/scene/gltf_amend.h"
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "absl/status/statusor.h"
+#include "absl/strings/match.h"
+#include "radiosity/scene/gltf_container.h"
+
+namespace lambert {
+namespace {
+
+using nlohmann::json;
+
+constexpr char kMeshopt[] = "EXT_meshopt_compression";
+
+// The objects of list `name`.
+std::vector<json*> ObjectsOf(json* gltf, const char* name) {
+  std::vector<json*> objects;
+  const auto list = gltf->find(name);
+  if (list == gltf->end() || !list->is_array()) return objects;
+  for (json& item : *list) {
+    if (item.is_object()) objects.push_back(&item);
+  }
+  return objects;
+}
+
+bool Amend(json* gltf) {
+  bool amended = false;
+  for (json* skin : ObjectsOf(gltf, "skins")) {
+    if (skin->contains("inverseBindMatrices")) continue;
+    (*skin)["inverseBindMatrices"] = -1;
+    amended = true;
+  }
+  for (json* buffer : ObjectsOf(gltf, "buffers")) {
+    if (!IsFallbackBuffer(*buffer)) continue;
+    (*buffer)["uri"] = "data:application/octet-stream;base64,AA==";
+    (*buffer)["byteLength"] = 1;
+    amended = true;
+  }
+  return amended;
+}
+
+void AppendUint32(size_t value, std::string* to) {
+  for (int byte = 0; byte < 4; ++byte) to->push_back(static_cast<char>(value >> (8 * byte)));
+}
+
+// A GLB with another first chunk, which was `old_text`; the chunks that follow it stay.
+std::string WithJson(const std::string& glb, absl::string_view old_text, std::string text) {
+  constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
+  const size_t rest = old_text.data() - glb.data() + old_text.size();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  std::string made = glb.substr(0, 8);
+  AppendUint32(kHeaderBytes + kChunkHeaderBytes + text.size() + (glb.size() - rest), &made);
+  AppendUint32(text.size(), &made);
+  made += glb.substr(16, 4) + text;
+  made.append(glb, rest, std::string::npos);
+  return made;
+}
+
+}  // namespace
+
+bool IsFallbackBuffer(const json& buffer) {
+  const json::json_pointer pointer(std::string("/extensions/") + kMeshopt + "/fallback");
+  return buffer.is_object() && buffer.contains(pointer) && buffer[pointer] == true;
+}
+
+std::optional<std::string> AmendGltf(const std::string& main_bytes) {
+  const absl::StatusOr<absl::string_view> text = FindJsonText(main_bytes);
+  if (!text.ok() ||
+      (!absl::StrContains(*text, "\"skins\"") && !absl::StrContains(*text, kMeshopt))) {
+    return std::nullopt;
+  }
+  json gltf = json::parse(text->begin(), text->end(), nullptr, false);
+  if (!gltf.is_object() || !Amend(&gltf)) return std::nullopt;
+  std::string amended = gltf.dump(-1, ' ', false, json::error_handler_t::replace);
+  if (!IsGlb(main_bytes)) return amended;
+  return WithJson(main_bytes, *text, std::move(amended));
+}
+
+}  // namespace lambert
