@@ -6,11 +6,13 @@
 #include "client/blobs.h"
 #include "client/caller.h"
 #include "client/convert.h"
+#include "client/gather.h"
 #include "client/watch.h"
 #include "fmt/format.h"
 #include "grpcpp/channel.h"
 #include "lambert/v1/blob_service.grpc.pb.h"
 #include "lambert/v1/farm_service.grpc.pb.h"
+#include "lambert/v1/gather_service.grpc.pb.h"
 #include "lambert/v1/scene_service.grpc.pb.h"
 #include "lambert/v1/snapshot_service.grpc.pb.h"
 #include "lambert/v1/solve_job_service.grpc.pb.h"
@@ -40,6 +42,7 @@ struct Client::Stubs {
         scene(v1::SceneService::NewStub(channel)),
         job(v1::SolveJobService::NewStub(channel)),
         snapshot(v1::SnapshotService::NewStub(channel)),
+        gather(v1::GatherService::NewStub(channel)),
         farm(v1::FarmService::NewStub(channel)),
         blobs(blob.get(), &caller) {}
 
@@ -48,6 +51,7 @@ struct Client::Stubs {
   const std::unique_ptr<v1::SceneService::Stub> scene;
   const std::unique_ptr<v1::SolveJobService::Stub> job;
   const std::unique_ptr<v1::SnapshotService::Stub> snapshot;
+  const std::unique_ptr<v1::GatherService::Stub> gather;
   const std::unique_ptr<v1::FarmService::Stub> farm;
   Blobs blobs;
 };
@@ -206,6 +210,13 @@ absl::StatusOr<std::vector<Snapshot>> Client::ListSnapshots(const std::string& j
 
 absl::StatusOr<Job> Client::Watch(const std::string& job, const WatchOptions& options) {
   return WatchJob(*stubs_->snapshot, stubs_->caller, job, options);
+}
+
+absl::StatusOr<Gathered> Client::Gather(const std::string& job, const GatherPoints& points,
+                                        const GatherOptions& options,
+                                        const std::function<void(size_t, size_t)>& on_progress) {
+  return GatherOver(*stubs_->gather, stubs_->caller, stubs_->blobs, job, points, options,
+                    on_progress);
 }
 
 absl::StatusOr<std::shared_ptr<const PatchSet>> Client::FetchPatches(const BlobRef& patch_set) {

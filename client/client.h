@@ -10,6 +10,7 @@
 #include "absl/status/statusor.h"
 #include "client/job.h"
 #include "radiosity/core/warning.h"
+#include "radiosity/gather/gather_points.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/scene/load_gltf.h"
@@ -84,6 +85,13 @@ class Client {
   // Verified by digest. Requires: the reference is of a patch set, or of a solution.
   absl::StatusOr<std::shared_ptr<const PatchSet>> FetchPatches(const BlobRef& patch_set);
   absl::StatusOr<std::shared_ptr<const Solution>> FetchSolution(const BlobRef& solution);
+
+  // Gathers at points from the job's newest snapshot, on the server's workers; goes on where the
+  // server starts again meanwhile. `on_progress`: points done, of all. The same question has the
+  // same answer, to the bit, and is split here where it is large.
+  absl::StatusOr<Gathered> Gather(const std::string& job, const GatherPoints& points,
+                                  const GatherOptions& options,
+                                  const std::function<void(size_t, size_t)>& on_progress);
 
   // Makes the calls in progress and all later ones fail with CANCELLED (reason INTERRUPTED).
   void Abort();

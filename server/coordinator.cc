@@ -41,10 +41,12 @@ Coordinator::Coordinator(const CoordinatorOptions& options, Stores stores)
       quotas_(options.quotas, options.day),
       scenes_(blobs_.get(), &refs_, records_.get(), options.scene),
       jobs_(&refs_, records_.get(), &quotas_, options.max_waiting_jobs),
-      holdings_(blobs_.get(), &refs_, &uploads_, &scenes_, &jobs_, &quotas_),
+      holdings_(blobs_.get(), &refs_, &uploads_, &scenes_, &jobs_, &quotas_, &work_),
       work_(options.work, unit_version_, FirstNumber(*records_), options.clock),
-      runner_({blobs_.get(), &refs_, records_.get(), &scenes_, &jobs_, &holdings_, &quotas_, &work_,
-               options.max_patches, options.journal, options.clock, options.log}),
+      parts_({blobs_.get(), &refs_, records_.get(), &scenes_, &jobs_, &holdings_, &quotas_, &work_,
+              options.max_patches, options.journal, options.clock, options.log}),
+      runner_(parts_),
+      gathers_(parts_),
       pool_(kPoolThreads) {}
 
 absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Start(const CoordinatorOptions& options) {

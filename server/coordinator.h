@@ -21,6 +21,7 @@
 #include "server/blobs/uploads.h"
 #include "server/doors/holdings.h"
 #include "server/doors/quotas.h"
+#include "server/gather/gathers.h"
 #include "server/jobs/job_store.h"
 #include "server/run/job_runner.h"
 #include "server/run/scheduler.h"
@@ -85,6 +86,7 @@ class Coordinator {
   SceneStore& scenes() { return scenes_; }
   JobStore& jobs() { return jobs_; }
   WorkTable& work() { return work_; }
+  Gathers& gathers() { return gathers_; }
   TaskPool& pool() { return pool_; }
   Traffic& traffic() { return traffic_; }
 
@@ -110,7 +112,9 @@ class Coordinator {
   Holdings holdings_;
   WorkTable work_;
   Traffic traffic_;
+  const RunnerParts parts_;
   JobRunner runner_;
+  Gathers gathers_;
   std::unique_ptr<Scheduler> scheduler_;
   TaskPool pool_;
   absl::once_flag stopped_;

@@ -18,32 +18,42 @@ namespace lambert::worker {
 using ShooterFactory = std::function<absl::StatusOr<std::shared_ptr<const Shooter>>(
     std::shared_ptr<const PatchSet>, const ShootOptions&)>;
 
-// Gets the bytes of a patch set.
-using FetchPatches =
+// What a shooter is made of, as a lease names it.
+struct ShooterKey {
+  std::string patch_set_sha256;
+  int64_t patch_set_bytes = 0;
+  std::string shoot_options;
+  std::string gather_task_sha256 = {};  // "": shoots; else gathers (gather_units.h)
+  int64_t gather_task_bytes = 0;
+
+  bool operator==(const ShooterKey&) const = default;
+};
+
+// Gets the bytes of a blob.
+using FetchBlob =
     std::function<absl::StatusOr<std::string>(const std::string& sha256, int64_t size_bytes)>;
 
 // Thread safe. Threads that want the same shooter wait for the one that makes it.
 class ShooterCache {
  public:
   // `capacity`: shooters that are kept, > 0; the least recently used goes first.
-  ShooterCache(FetchPatches fetch, ShooterFactory make, size_t capacity);
+  ShooterCache(FetchBlob fetch, ShooterFactory make, size_t capacity);
 
-  // DATA_LOSS where the bytes do not have the digest or are no patch set; and what fetching and
-  // making fail with. A failure is not kept: the next call tries again.
-  absl::StatusOr<std::shared_ptr<const Shooter>> Get(const std::string& sha256, int64_t size_bytes,
-                                                     const std::string& shoot_options);
+  // DATA_LOSS where the bytes do not have the digest or are not what they should be; and what
+  // fetching and making fail with. A failure is not kept: the next call tries again.
+  absl::StatusOr<std::shared_ptr<const Shooter>> Get(const ShooterKey& key);
 
  private:
   struct Entry {
-    std::string sha256, shoot_options;
+    ShooterKey key;
     absl::Notification ready;
     absl::StatusOr<std::shared_ptr<const Shooter>> shooter;  // once ready
   };
-  absl::StatusOr<PatchSet> Patches(const std::string& sha256, int64_t size_bytes) const;
-  absl::StatusOr<std::shared_ptr<const Shooter>> Make(const std::string& sha256, int64_t size_bytes,
-                                                      const std::string& shoot_options) const;
+  absl::StatusOr<std::string> Fetch(const std::string& sha256, int64_t size_bytes) const;
+  absl::StatusOr<PatchSet> Patches(const ShooterKey& key) const;
+  absl::StatusOr<std::shared_ptr<const Shooter>> Make(const ShooterKey& key) const;
 
-  const FetchPatches fetch_;
+  const FetchBlob fetch_;
   const ShooterFactory make_;
   const size_t capacity_;
   absl::Mutex mutex_;

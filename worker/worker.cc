@@ -33,8 +33,9 @@ struct Ran {
 
 absl::StatusOr<Ran> RunUnit(ShooterCache& shooters, const v1::Lease& lease) try {
   absl::StatusOr<std::shared_ptr<const Shooter>> shooter =
-      shooters.Get(lease.patch_set_digest().sha256(), lease.patch_set_digest().size_bytes(),
-                   lease.shoot_options());
+      shooters.Get({lease.patch_set_digest().sha256(), lease.patch_set_digest().size_bytes(),
+                    lease.shoot_options(), lease.gather_task_digest().sha256(),
+                    lease.gather_task_digest().size_bytes()});
   if (!shooter.ok()) return shooter.status();
   absl::StatusOr<WorkUnit> unit = DecodeUnit(lease.unit());
   if (!unit.ok()) return unit.status();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "radiosity/gather/lamp_tree.h"
+#include "radiosity/patch/light.h"
 #include "radiosity/pyramid/spherical_triangle.h"
 #include "radiosity/shoot/ray_numbers.h"
 #include "radiosity/shoot/this_thread.h"
@@ -17,7 +18,8 @@ namespace {
 
 // A pass of a solve that has this number would be its 65,536th: gathering has streams of its own.
 constexpr uint32_t kGatherPass = 0xFFFF;
-enum Purpose : uint32_t { kHemisphere = 0, kLamp = 1 };
+// What the rays of a point are for; lights count on.
+constexpr int kHemisphere = 0, kLamp = 1, kFirstLight = 2;
 
 // A right-handed frame around a unit normal (DBC17).
 struct Frame {
@@ -102,13 +104,9 @@ class Sums {
       if (!cut.lit()) continue;
       AddLamps(position, frame.z, origin, cut, Numbers(name, replicate, kLamp), &direct_[sum]);
     }
-    for (const PointLight& light : source_.patches->point_lights) {
-      const Vec3 way = light.position - position;
-      const double d2 = Dot(way, way), cosine = Dot(way, frame.z) / std::sqrt(d2);
-      if (!(d2 > 0) || !(cosine > 0)) continue;
-      AddShadowRay(origin, source_.scene->ToTrace(light.position),
-                   light.intensity_cd * (cosine / d2), &lights_[slot]);
-    }
+    const int lights = LightCount(*source_.patches);
+    for (int light = 0; light < lights; ++light)
+      AddLight(light, position, frame.z, origin, name, slot);
   }
 
   Gathered Finish() {
@@ -134,9 +132,10 @@ class Sums {
   }
 
  private:
-  RayNumbers Numbers(uint32_t name, int replicate, Purpose purpose) const {
-    const uint32_t stream = 2 * static_cast<uint32_t>(replicate) + purpose;
-    return {RandomStream{source_.seed, name, stream, kGatherPass}, Sequence::kSobol};
+  RayNumbers Numbers(uint32_t name, int replicate, int purpose) const {
+    const int stream = purpose * kGatherReplicates + replicate;
+    return {RandomStream{source_.seed, name, static_cast<uint32_t>(stream), kGatherPass},
+            Sequence::kSobol};
   }
 
   void AddHemisphere(const Frame& frame, Vec3 origin, const RayNumbers& numbers, Rgb* sum) {
@@ -169,6 +168,34 @@ class Sums {
       AddShadowRay(origin, end + PatchNormal(patches, choice.lamp) * lift,
                    sample.irradiance_lx / choice.probability, sum);
     }
+  }
+
+  // One ray where more would say the same.
+  void AddLight(int light, Vec3 position, Vec3 normal, Vec3 origin, uint32_t name, size_t slot) {
+    if (IsDelta(*source_.patches, light)) {
+      AddLightRay(SampleLight(*source_.patches, light, position, 0, 0), normal, origin,
+                  &lights_[slot]);
+      return;
+    }
+    for (int replicate = 0; replicate < kGatherReplicates; ++replicate) {
+      const RayNumbers numbers = Numbers(name, replicate, kFirstLight + light);
+      RandomNumbers8 xi;
+      for (int ray = 0; ray < source_.rays; ++ray) {
+        if (ray % 8 == 0) numbers.Fill(static_cast<uint32_t>(ray), xi);
+        AddLightRay(SampleLight(*source_.patches, light, position, xi.numbers[0][ray % 8],
+                                xi.numbers[1][ray % 8]),
+                    normal, origin, &direct_[slot * kGatherReplicates + replicate]);
+      }
+    }
+  }
+
+  void AddLightRay(const LightSample& sample, Vec3 normal, Vec3 origin, Rgb* sum) {
+    const double cosine = Dot(sample.direction, normal);
+    if (!(cosine > 0) || ChannelSum(sample.illuminance_lx) == 0) return;
+    // Past everything: the scene's diagonal is less than 2.
+    const double past = Length(origin) + 2;
+    const double length = std::min(sample.distance_m * source_.scene->scale(), past);
+    AddShadowRay(origin, origin + sample.direction * length, sample.illuminance_lx * cosine, sum);
   }
 
   void AddShadowRay(Vec3 origin, Vec3 end, Rgb value, Rgb* sum) {
@@ -208,8 +235,9 @@ absl::StatusOr<std::shared_ptr<const Gatherer>> Gatherer::Create(
   if (!scene.ok()) return scene.status();
   auto impl = std::make_unique<Impl>(std::move(patches), *std::move(scene), options);
   for (size_t i = 0; i < radiosity_lm_per_m2.size(); ++i) {
-    impl->reflected_lm_per_m2.push_back(radiosity_lm_per_m2[i] -
-                                        impl->patches->exitance_lm_per_m2[i]);
+    Rgb reflected = radiosity_lm_per_m2[i] - impl->patches->exitance_lm_per_m2[i];
+    for (int c = 0; c < 3; ++c) reflected[c] = std::max(reflected[c], 0.0);  // rounding
+    impl->reflected_lm_per_m2.push_back(reflected);
   }
   return std::shared_ptr<const Gatherer>(new Gatherer(std::move(impl)));
 }

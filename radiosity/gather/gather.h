@@ -17,44 +17,10 @@
 
 #include "absl/status/statusor.h"
 #include "radiosity/core/rgb.h"
-#include "radiosity/core/vec3.h"
+#include "radiosity/gather/gather_points.h"
 #include "radiosity/patch/patch_set.h"
 
 namespace lambert {
-
-// Where light is looked for, and on which side. Points on a patch are lifted off it; one within a
-// solid sees its inside, which is black.
-struct GatherPoints {
-  std::vector<Vec3> position_m;  // relative to PatchSet::origin
-  std::vector<Vec3> normal;      // unit; as many
-
-  size_t size() const { return position_m.size(); }
-  void Add(Vec3 position, Vec3 unit_normal) {
-    position_m.push_back(position);
-    normal.push_back(unit_normal);
-  }
-};
-
-// What arrives there, one value a point.
-struct Gathered {
-  std::vector<Rgb> irradiance_lx;
-  std::vector<Rgb> std_error_lx;  // from kGatherReplicates independent parts; of the rays alone
-
-  bool operator==(const Gathered&) const = default;
-};
-
-// Gathers somewhere: in this thread, or on a server's workers.
-using GatherFunction = std::function<absl::StatusOr<Gathered>(const GatherPoints&)>;
-
-inline constexpr int kGatherReplicates = 4;
-inline constexpr int kMaxGatherRays = 1 << 16;
-
-struct GatherOptions {
-  // Rays over the hemisphere of each point, and as many to lamps; rounded up to a multiple of
-  // kGatherReplicates. 1 .. kMaxGatherRays.
-  int rays_per_point = 64;
-  uint64_t seed = 1;
-};
 
 // Immutable; any number of threads at once.
 class Gatherer {

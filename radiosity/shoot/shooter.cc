@@ -18,8 +18,9 @@
 namespace lambert {
 namespace {
 
-// Changes whenever the same unit would give other bytes.
-constexpr char kCodeVersion[] = "shoot-7";
+// Changes whenever the same unit, of shooting or of gathering (gather_units.h), would give other
+// bytes.
+constexpr char kCodeVersion[] = "shoot-7,gather-1";
 
 class EmbreeShooter : public Shooter {
  public:

@@ -15,7 +15,7 @@ std::map<std::string, int64_t> Holdings::BlobsOf(const std::string& owner) const
 
 bool Holdings::Has(const Identity& who, const std::string& sha256) const {
   if (who.sees_all()) return blobs_->Has(sha256);
-  if (who.is_worker()) return jobs_->IsPatchSetOfRunning(sha256);
+  if (who.is_worker()) return jobs_->IsPatchSetOfRunning(sha256) || work_->NeedsBlob(sha256);
   return BlobsOf(who.name).count(sha256) > 0;
 }
 

@@ -16,23 +16,25 @@
 #include "server/doors/quotas.h"
 #include "server/jobs/job_store.h"
 #include "server/scenes/scene_store.h"
+#include "server/work/work_table.h"
 
 namespace lambert::server {
 
 // A digest alone opens nothing. A client has a blob where it uploaded it, or has a scene or a job
-// that names it; a worker may read the patch sets of jobs that run. To anybody else a blob is not
+// that names it; a worker may read what units that are lent need. To anybody else a blob is not
 // there, whoever may have it: who uploads one that another has has to send all of its bytes. Thread
 // safe.
 class Holdings {
  public:
   Holdings(BlobStore* blobs, BlobRefs* refs, Uploads* uploads, SceneStore* scenes,
-           const JobStore* jobs, const Quotas* quotas)
+           const JobStore* jobs, const Quotas* quotas, const WorkTable* work)
       : blobs_(blobs),
         refs_(refs),
         uploads_(uploads),
         scenes_(scenes),
         jobs_(jobs),
-        quotas_(quotas) {}
+        quotas_(quotas),
+        work_(work) {}
 
   // The blobs of a client and their sizes.
   std::map<std::string, int64_t> BlobsOf(const std::string& owner) const;
@@ -62,6 +64,7 @@ class Holdings {
   SceneStore* const scenes_;
   const JobStore* const jobs_;
   const Quotas* const quotas_;
+  const WorkTable* const work_;
 };
 
 }  // namespace lambert::server

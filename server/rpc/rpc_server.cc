@@ -41,7 +41,7 @@ class RpcServerImpl : public RpcServer {
   RpcServerImpl(Coordinator* coordinator, std::unique_ptr<const Doors> doors)
       : coordinator_(coordinator), doors_(std::move(doors)) {
     for (auto make : {MakeBlobService, MakeSceneService, MakeSolveJobService, MakeSnapshotService,
-                      MakeFarmService, MakeWorkerService}) {
+                      MakeGatherService, MakeFarmService, MakeWorkerService}) {
       services_.push_back(make(coordinator, doors_.get()));
     }
   }

@@ -16,6 +16,7 @@ std::unique_ptr<grpc::Service> MakeBlobService(Coordinator* coordinator, const D
 std::unique_ptr<grpc::Service> MakeSceneService(Coordinator* coordinator, const Doors* doors);
 std::unique_ptr<grpc::Service> MakeSolveJobService(Coordinator* coordinator, const Doors* doors);
 std::unique_ptr<grpc::Service> MakeSnapshotService(Coordinator* coordinator, const Doors* doors);
+std::unique_ptr<grpc::Service> MakeGatherService(Coordinator* coordinator, const Doors* doors);
 std::unique_ptr<grpc::Service> MakeFarmService(Coordinator* coordinator, const Doors* doors);
 std::unique_ptr<grpc::Service> MakeWorkerService(Coordinator* coordinator, const Doors* doors);
 

@@ -36,6 +36,10 @@ w1::Lease Encode(const GrantedLease& granted) {
   lease.mutable_patch_set_digest()->set_sha256(setup.patch_set_sha256);
   lease.mutable_patch_set_digest()->set_size_bytes(setup.patch_set_bytes);
   lease.set_shoot_options(setup.shoot_options);
+  if (!setup.gather_task_sha256.empty()) {
+    lease.mutable_gather_task_digest()->set_sha256(setup.gather_task_sha256);
+    lease.mutable_gather_task_digest()->set_size_bytes(setup.gather_task_bytes);
+  }
   return lease;
 }
 

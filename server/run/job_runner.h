@@ -23,7 +23,7 @@
 
 namespace lambert::server {
 
-// What the runner works with; all of it outlives the runner and is thread safe.
+// What jobs and gathers are run with; all of it outlives who runs them and is thread safe.
 struct RunnerParts {
   BlobStore* blobs = nullptr;
   BlobRefs* refs = nullptr;

@@ -39,6 +39,11 @@ void PublishedStep::Merge(const UnitResult& result, const std::vector<GrainRange
   for (const GrainRange& range : grains) merged_grains_ += static_cast<size_t>(range.count);
 }
 
+double PublishedStep::done_fraction() const {
+  absl::MutexLock lock(&mutex_);
+  return static_cast<double>(merged_grains_) / static_cast<double>(grains_.size());
+}
+
 void PublishedStep::Abort(const absl::Status& status) {
   absl::MutexLock lock(&mutex_);
   if (status_.ok() && merged_grains_ < grains_.size()) status_ = status;

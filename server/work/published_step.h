@@ -19,6 +19,10 @@ struct WorkSetup {
   PatchIndex patch_count = 0;
   std::string shoot_options;   // EncodeShootOptions
   bool has_sightings = false;  // results may tell what every ray has seen
+  // What a gather gathers (gather_units.h); "": units of shooting. `patch_count` then counts the
+  // numbers of the result.
+  std::string gather_task_sha256 = {};
+  int64_t gather_task_bytes = 0;
 };
 
 // Some grains, one after the other.
@@ -45,6 +49,8 @@ class PublishedStep {
                                    const std::string& bytes) const;
   // Adds a checked result of these grains. Requires: each grain once.
   void Merge(const UnitResult& result, const std::vector<GrainRange>& grains);
+  // Of the grains, how many are merged.
+  double done_fraction() const;
   // Ends the step without a result. The first of Abort and the last Merge counts.
   void Abort(const absl::Status& status);
   // Blocks until every grain is merged, or the step aborted.
@@ -55,7 +61,7 @@ class PublishedStep {
   const int64_t number_;
   const std::vector<WorkUnit> grains_;
   int64_t rays_ = 0;  // set once
-  absl::Mutex mutex_;
+  mutable absl::Mutex mutex_;
   UnitResult merged_ ABSL_GUARDED_BY(mutex_);
   size_t merged_grains_ ABSL_GUARDED_BY(mutex_) = 0;
   absl::Status status_ ABSL_GUARDED_BY(mutex_);

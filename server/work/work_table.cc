@@ -309,6 +309,14 @@ void WorkTable::ForgetJob(const std::string& job) {
   state_.paces.erase(job);
 }
 
+bool WorkTable::NeedsBlob(const std::string& sha256) const {
+  absl::MutexLock lock(&mutex_);
+  return std::any_of(steps_.begin(), steps_.end(), [&](const auto& published) {
+    const WorkSetup& setup = published.second->setup();
+    return setup.patch_set_sha256 == sha256 || setup.gather_task_sha256 == sha256;
+  });
+}
+
 void WorkTable::Tick() {
   Calls calls;
   std::vector<LogLine> notes;

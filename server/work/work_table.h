@@ -113,6 +113,9 @@ class WorkTable {
   void AbortJob(const std::string& job, const absl::Status& status);
   void ForgetJob(const std::string& job);
 
+  // Whether workers need a blob for a step that is published.
+  bool NeedsBlob(const std::string& sha256) const;
+
   // Ends silent sessions, answers calls held long enough, repeats late units. Call it often (50
   // ms).
   void Tick();

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <string>
 
+#include "radiosity/gather/gather_points.h"
 #include "radiosity/shoot/options_codec.h"
 #include "radiosity/solve/plan.h"
 #include "radiosity/solve/solver.h"
@@ -52,6 +53,15 @@ void AddScenes(Corpus& corpus) {
   corpus.Add("scene", document.json.dump());
 }
 
+void AddGathers(Corpus& corpus) {
+  GatherTask task;
+  task.radiosity_lm_per_m2 = {{1, 2, 3}, {4, 5, 6}};
+  task.points.Add({1, 2, 3}, {0, 1, 0});
+  corpus.Add("gather", EncodeGatherPoints(task.points));
+  corpus.Add("gather", EncodeGatherTask(task));
+  corpus.Add("gather", EncodeGathered({{{1, 2, 3}}, {{0, 0, 1}}}));
+}
+
 void AddRuns(Corpus& corpus) {
   const auto patches = std::make_shared<const PatchSet>(PatchesOf(MakeCornell(1)));
   corpus.Add("patch_set", EncodePatchSet(*patches));
@@ -80,6 +90,7 @@ int main(int argc, char** argv) {
   }
   lambert::Corpus corpus(argv[1]);
   lambert::AddScenes(corpus);
+  lambert::AddGathers(corpus);
   lambert::AddRuns(corpus);
   return 0;
 }

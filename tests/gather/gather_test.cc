@@ -63,7 +63,7 @@ TEST(Gather, UnderARectangularLampIsItsConfigurationFactor) {
   for (double depth : {0.1, 2.0, 40.0}) {
     SampleMean mean;
     double expected = 100 * CornerFactor(1, 3, depth);
-    for (uint64_t seed = 1; seed <= 16; ++seed) {
+    for (uint64_t seed = 1; seed <= 64; ++seed) {
       const Gathered gathered =
           Direct(patches, At(*patches, {{0, 2 - depth, 0}}, {0, 1, 0}), {64, seed});
       mean.Add(gathered.irradiance_lx[0].r);

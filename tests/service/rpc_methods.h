@@ -7,6 +7,7 @@
 #include "google/protobuf/descriptor.h"
 #include "lambert/v1/blob_service.pb.h"
 #include "lambert/v1/farm_service.pb.h"
+#include "lambert/v1/gather_service.pb.h"
 #include "lambert/v1/scene_service.pb.h"
 #include "lambert/v1/snapshot_service.pb.h"
 #include "lambert/v1/solve_job_service.pb.h"
@@ -19,8 +20,9 @@ inline std::vector<const google::protobuf::MethodDescriptor*> AllRpcMethods() {
   std::vector<const google::protobuf::MethodDescriptor*> methods;
   for (const google::protobuf::FileDescriptor* file :
        {v1::Digest::descriptor()->file(), v1::ListWorkersRequest::descriptor()->file(),
-        v1::Scene::descriptor()->file(), v1::WatchSnapshotsRequest::descriptor()->file(),
-        v1::SolveJob::descriptor()->file(), worker::v1::Lease::descriptor()->file()}) {
+        v1::Gather::descriptor()->file(), v1::Scene::descriptor()->file(),
+        v1::WatchSnapshotsRequest::descriptor()->file(), v1::SolveJob::descriptor()->file(),
+        worker::v1::Lease::descriptor()->file()}) {
     for (int i = 0; i < file->service_count(); ++i) {
       for (int j = 0; j < file->service(i)->method_count(); ++j) {
         methods.push_back(file->service(i)->method(j));

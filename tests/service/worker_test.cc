@@ -82,7 +82,7 @@ TEST(LeaseBook, ALeaseThatOutlivesItsSessionIsNotReported) {
 class ShooterCacheTest : public testing::Test {
  protected:
   absl::StatusOr<std::shared_ptr<const Shooter>> Get(const std::string& bytes) {
-    return cache_.Get(Sha256Hex(bytes), static_cast<int64_t>(bytes.size()), options_);
+    return cache_.Get({Sha256Hex(bytes), static_cast<int64_t>(bytes.size()), options_});
   }
   const std::string bytes_ = EncodePatchSet(PatchesOf(MakeCornell(1)));
   const std::string options_ = EncodeShootOptions({});
@@ -127,7 +127,7 @@ TEST(ShooterCacheWithoutMemory, SaysSoEachTimeAndLeavesNobodyWaiting) {
       [](const std::string&, int64_t) -> absl::StatusOr<std::string> { throw std::bad_alloc(); },
       Shooter::Create, 2);
   for (int i = 0; i < 2; ++i) {
-    const absl::Status status = cache.Get("digest", 1, EncodeShootOptions({})).status();
+    const absl::Status status = cache.Get({"digest", 1, EncodeShootOptions({})}).status();
     EXPECT_TRUE(absl::IsResourceExhausted(status)) << status;
     EXPECT_NE(status.message().find("not enough memory"), absl::string_view::npos);
   }
