@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "radiosity/exact/closure.h"
 #include "radiosity/exact/occluders.h"
+#include "radiosity/patch/light.h"
 
 namespace lambert {
 namespace {
@@ -50,9 +50,8 @@ Exchange::Exchange(const PatchSet& patches, const RayScene& scene, bool may_hide
     : patches_(patches),
       scene_(scene),
       is_closed_(may_hide && IsClosed(patches, scene)),
-      unoccluded_{
-          ExchangeMatrix(patches.size()),
-          LightFractions(patches.point_lights.size(), std::vector<double>(patches.size()))} {
+      unoccluded_{ExchangeMatrix(patches.size()),
+                  LightFractions(patches.lights.size(), std::vector<double>(patches.size()))} {
   const std::optional<Occluders> occluders =
       may_hide ? std::optional<Occluders>(patches) : std::nullopt;
   for (PatchIndex i = 0; i < patches.size(); ++i) {
@@ -69,12 +68,12 @@ Exchange::Exchange(const PatchSet& patches, const RayScene& scene, bool may_hide
 }
 
 void Exchange::AddLights(bool may_hide) {
-  for (size_t l = 0; l < patches_.point_lights.size(); ++l) {
-    const Vec3 light = patches_.point_lights[l].position;
+  for (int l = 0; l < LightCount(patches_); ++l) lights_.emplace_back(patches_, l);
+  for (size_t l = 0; l < lights_.size(); ++l) {
     for (PatchIndex i = 0; i < patches_.size(); ++i) {
-      const double angle = SolidAngleFrom(light, patches_.corners[i]);
-      if (angle == 0) continue;
-      unoccluded_.lights[l][i] = angle / (4 * std::numbers::pi);
+      const double fraction = lights_[l].Of(patches_.corners[i]);
+      if (fraction == 0) continue;
+      unoccluded_.lights[l][i] = fraction;
       if (may_hide) links_.push_back({i, patches_.size() + static_cast<PatchIndex>(l)});
     }
   }
@@ -83,8 +82,7 @@ void Exchange::AddLights(bool may_hide) {
 Segments Exchange::SegmentsOf(const Link& link) const {
   const Triangle& at = patches_.corners[link.i];
   if (link.j < patches_.size()) return Segments(FacingParts(at, patches_.corners[link.j]));
-  return Segments(patches_.point_lights[link.j - patches_.size()].position,
-                  {{at[0], at[1], at[2]}, 3}, PlaneOf(at).normal);
+  return Segments(lights_[link.j - patches_.size()], at);
 }
 
 double& Exchange::Entry(const Link& link, Transport& transport) {

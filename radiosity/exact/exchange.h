@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "radiosity/exact/exchange_matrix.h"
+#include "radiosity/exact/light_fraction.h"
 #include "radiosity/exact/segments.h"
 #include "radiosity/patch/patch_set.h"
 
 namespace lambert {
 
-// What every patch gets of a point light's flux: [light][patch], fractions.
+// What every patch gets of a light's flux: [light][patch].
 using LightFractions = std::vector<std::vector<double>>;
 
 struct Transport {
@@ -22,7 +23,7 @@ struct Transport {
 // A pair that may be occluded.
 struct Link {
   PatchIndex i = 0;
-  PatchIndex j = 0;   // > i; or patches.size() + l for point light l
+  PatchIndex j = 0;   // > i; or patches.size() + l for light l
   float control = 0;  // visible fraction, guessed
   float spread = 0;   // standard deviation of one sample of the exchange, guessed
 };
@@ -59,6 +60,7 @@ class Exchange {
   const PatchSet& patches_;
   const RayScene& scene_;
   const bool is_closed_;
+  std::vector<LightFraction> lights_;
   Transport unoccluded_;
   std::vector<Link> links_;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lambert {
 namespace {
@@ -58,19 +57,18 @@ double Radius(const Polygon& polygon, Vec3 center) {
 Segments::Segments(const Facing& facing)
     : facing_(facing), from_area_m2_(AreaOf(facing.from)), to_area_m2_(AreaOf(facing.to)) {}
 
-Segments::Segments(Vec3 light, const Polygon& to, Vec3 to_normal)
-    : facing_{{{light}, 1}, to, {}, to_normal}, from_point_(true), to_area_m2_(AreaOf(to)) {}
+Segments::Segments(const LightFraction& light, const Triangle& to)
+    : facing_{{{light.place()}, 1}, {{to[0], to[1], to[2]}, 3}, {}, PlaneOf(to).normal},
+      light_(&light),
+      to_area_m2_(Area(to)) {}
 
 Segments::Segment Segments::Sample(const std::array<float, 4>& shift, int64_t number) const {
   const auto x = [&](int dimension) { return Shifted(shift[dimension], number, dimension); };
   Segment segment;
   segment.to = PointOn(facing_.to, to_area_m2_, x(2), x(3));
-  if (from_point_) {
-    segment.from = facing_.from.corners[0];
-    const Vec3 r = segment.to - segment.from;
-    const double r2 = Dot(r, r);
-    segment.weight =
-        -Dot(facing_.to_normal, r) / (r2 * std::sqrt(r2)) * to_area_m2_ / (4 * std::numbers::pi);
+  if (light_ != nullptr) {
+    segment.from = light_->SeenFrom(segment.to);
+    segment.weight = light_->Density(segment.to, facing_.to_normal) * to_area_m2_;
     return segment;
   }
   segment.from = PointOn(facing_.from, from_area_m2_, x(0), x(1));
@@ -86,7 +84,7 @@ bool Segments::near() const {
 
 void SegmentTracer::Add(Vec3 from, Vec3 from_normal, Vec3 to, Vec3 to_normal) {
   const Vec3 end = scene_.ToTrace(to) + to_normal * kTieDistance;
-  // A point light may lie on a wall: it is lifted off towards what it lights, further than a
+  // A light may lie on a wall: it is lifted off towards what it lights, further than a
   // patch's point as that may be at a flat angle.
   const Vec3 lift =
       from_normal == Vec3{} ? Normalized(to - from) * kTieDistance : from_normal * kOriginOffset;

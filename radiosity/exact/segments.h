@@ -8,19 +8,20 @@
 
 #include "radiosity/core/philox.h"
 #include "radiosity/exact/form_factor.h"
+#include "radiosity/exact/light_fraction.h"
 #include "radiosity/trace/ray_batch.h"
 #include "radiosity/trace/ray_scene.h"
 
 namespace lambert {
 
-// What two parts, or a point light and a part, exchange, in points: the mean of `weight` over
+// What two parts, or a light and a part, exchange, in points: the mean of `weight` over
 // uniform points is the whole without occlusion.
 class Segments {
  public:
   // Between the parts of two patches: weights sum to the exchange area.
   explicit Segments(const Facing& facing);
-  // From a point light: weights sum to the fraction of its flux, solid angle / (4 pi).
-  Segments(Vec3 light, const Polygon& to, Vec3 to_normal);
+  // From a light, which must outlive it: weights sum to the fraction of its flux.
+  Segments(const LightFraction& light, const Triangle& to);
 
   struct Segment {
     Vec3 from, to;
@@ -37,7 +38,7 @@ class Segments {
 
  private:
   Facing facing_;
-  bool from_point_ = false;
+  const LightFraction* light_ = nullptr;  // null: from a patch
   double from_area_m2_ = 0, to_area_m2_ = 0;
 };
 
@@ -48,7 +49,7 @@ class SegmentTracer {
       : scene_(scene), batch_(std::make_unique<RayBatch>()) {}
 
   bool full() const { return batch_->size == RayBatch::kCapacity; }
-  // Requires: not full. `from_normal` is zero for a point light.
+  // Requires: not full. `from_normal` is zero for a light.
   void Add(Vec3 from, Vec3 from_normal, Vec3 to, Vec3 to_normal);
   // Calls use(k, is_visible) for each segment in the order of Add, and forgets them.
   template <typename Use>

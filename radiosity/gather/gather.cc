@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "radiosity/core/sin_cos.h"
 #include "radiosity/gather/lamp_tree.h"
 #include "radiosity/patch/light.h"
-#include "radiosity/pyramid/spherical_triangle.h"
 #include "radiosity/shoot/ray_numbers.h"
 #include "radiosity/shoot/this_thread.h"
 #include "radiosity/trace/ray_scene.h"

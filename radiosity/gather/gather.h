@@ -3,7 +3,7 @@
 //
 //   E(x) = E_lamps(x) + E_reflected(x)
 //   E_lamps: from emissive patches, exitance / pi times cosine and solid angle, where nothing
-//   stands between, by rays towards them (lamp_tree.h); and from point lights, one ray each.
+//   stands between, by rays towards them (lamp_tree.h); and from other lights, one ray each.
 //   E_reflected: the mean of what the patches that cosine rays meet reflect, radiosity - exitance.
 //
 // Unbiased, given the solution. Backs of one-sided patches are black, as in shooting.

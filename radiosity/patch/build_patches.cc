@@ -48,16 +48,16 @@ absl::StatusOr<Survey> SurveyScene(const Scene& scene, const PatchOptions& optio
 }
 
 absl::Status AddLights(const Scene& scene, PatchSet* patches) {
-  for (size_t k = 0; k < scene.point_lights.size(); ++k) {
-    PointLight light = scene.point_lights[k];
+  for (size_t k = 0; k < scene.lights.size(); ++k) {
+    Light light = scene.lights[k];
     light.position = light.position - patches->origin;
-    const Rgb i = light.intensity_cd;
+    const Rgb i = light.strength;
     if (!IsFinite(light.position) || !IsFinite(i) || i.r < 0 || i.g < 0 || i.b < 0) {
-      return SceneError(absl::StrCat("point light ", k),
+      return SceneError(absl::StrCat("light ", k),
                         "its position or intensity is not finite, or its intensity is negative",
                         "give it finite values of 0 or more");
     }
-    patches->point_lights.push_back(light);
+    patches->lights.push_back(light);
   }
   return absl::OkStatus();
 }

@@ -18,8 +18,8 @@ std::vector<Vec3> PlacesOf(const PatchSet& patches) {
   for (const auto& corners : patches.corners) {
     for (const Vec3& p : corners) places.insert({p.x, p.y, p.z});
   }
-  for (const PointLight& light : patches.point_lights) {
-    places.insert({light.position.x, light.position.y, light.position.z});
+  for (const Light& light : patches.lights) {
+    if (HasPlace(light)) places.insert({light.position.x, light.position.y, light.position.z});
   }
   std::vector<Vec3> list;
   for (const auto& p : places) list.push_back({p[0], p[1], p[2]});
@@ -38,9 +38,13 @@ bool IsConvex(const PatchSet& patches) {
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     const Vec3 normal = PatchNormal(patches, i), corner = patches.corners[i][0];
     tests += static_cast<double>(places.size());
-    const bool has_back = std::any_of(places.begin(), places.end(), [&](const Vec3& p) {
-      return Dot(p - corner, normal) < least;
-    });
+    const bool is_lit_from_behind = std::any_of(
+        patches.lights.begin(), patches.lights.end(),
+        [&](const Light& light) { return !HasPlace(light) && Dot(light.z, normal) > 0; });
+    const bool has_back =
+        is_lit_from_behind || std::any_of(places.begin(), places.end(), [&](const Vec3& p) {
+          return Dot(p - corner, normal) < least;
+        });
     if (has_back || tests > kMostTests) return false;
   }
   return true;

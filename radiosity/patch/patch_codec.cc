@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little, "the format is little-
 static_assert(sizeof(Vec3) == 24 && sizeof(Rgb) == 24 && sizeof(PatchSource) == 16 &&
               sizeof(std::array<Vec3, 3>) == 72 && sizeof(Transform) == 96);
 
-constexpr char kMagic[8] = {'L', 'M', 'B', 'P', 'T', 'C', 'H', '1'};
+constexpr char kMagic[8] = {'L', 'M', 'B', 'P', 'T', 'C', 'H', '2'};
 
 class Writer {
  public:
@@ -108,6 +108,26 @@ Camera ReadCamera(Reader* reader) {
   return camera;
 }
 
+void WriteLight(const Light& light, Writer* writer) {
+  writer->Text(light.name);
+  writer->Value(light.kind);
+  writer->Value(light.position);
+  writer->Value(light.strength);
+  for (const Vec3& axis : {light.x, light.y, light.z}) writer->Value(axis);
+  for (double cosine : {light.cos_inner, light.cos_outer}) writer->Value(cosine);
+}
+
+Light ReadLight(Reader* reader) {
+  Light light;
+  light.name = reader->Text();
+  light.kind = reader->Value<Light::Kind>();
+  light.position = reader->Value<Vec3>();
+  light.strength = reader->Value<Rgb>();
+  for (Vec3* axis : {&light.x, &light.y, &light.z}) *axis = reader->Value<Vec3>();
+  for (double* cosine : {&light.cos_inner, &light.cos_outer}) *cosine = reader->Value<double>();
+  return light;
+}
+
 void ReadAnnotations(Reader* reader, PatchSet* patches) {
   const uint64_t names = reader->Count(sizeof(uint64_t));
   for (uint64_t i = 0; i < names && reader->ok(); ++i) {
@@ -129,6 +149,23 @@ bool IsFraction(Rgb a) {
 }
 
 bool IsFluxLike(Rgb a) { return IsFinite(a) && a.r >= 0 && a.g >= 0 && a.b >= 0; }
+
+bool IsUnit(const Vec3& axis) { return std::fabs(Dot(axis, axis) - 1) < 1e-6; }
+
+const char* FindFault(const Light& light) {
+  if (light.kind > Light::Kind::kDistant) return "a light is of no known kind";
+  if (!IsFinite(light.position) || !IsFluxLike(light.strength)) {
+    return "a light is not finite or is negative";
+  }
+  if (!IsUnit(light.x) || !IsUnit(light.y) || !IsUnit(light.z)) {
+    return "an axis of a light is not of length 1";
+  }
+  if (!(light.cos_outer >= -1) || !(light.cos_outer <= 1) ||
+      !(light.cos_inner >= light.cos_outer) || !std::isfinite(light.cos_inner)) {
+    return "a cone of a light cannot be";
+  }
+  return nullptr;
+}
 
 bool IsUsable(const Camera& camera) {
   const Transform& world = camera.world;
@@ -163,10 +200,8 @@ const char* FindFault(const PatchSet& patches) {
       return "a source index is negative";
     }
   }
-  for (const PointLight& light : patches.point_lights) {
-    if (!IsFinite(light.position) || !IsFluxLike(light.intensity_cd)) {
-      return "a point light is not finite or is negative";
-    }
+  for (const Light& light : patches.lights) {
+    if (const char* fault = FindFault(light)) return fault;
   }
   for (const Camera& camera : patches.cameras) {
     if (!IsUsable(camera)) return "a camera is not finite";
@@ -193,12 +228,8 @@ std::string EncodePatchSet(const PatchSet& patches) {
   writer.Column(patches.twin);
   writer.Column(patches.is_back);
   writer.Column(patches.source);
-  writer.Value<uint64_t>(patches.point_lights.size());
-  for (const PointLight& light : patches.point_lights) {
-    writer.Text(light.name);
-    writer.Value(light.position);
-    writer.Value(light.intensity_cd);
-  }
+  writer.Value<uint64_t>(patches.lights.size());
+  for (const Light& light : patches.lights) WriteLight(light, &writer);
   writer.Value<uint64_t>(patches.node_names.size());
   for (const std::string& name : patches.node_names) writer.Text(name);
   writer.Value<uint64_t>(patches.cameras.size());
@@ -214,7 +245,7 @@ std::string EncodePatchSet(const PatchSet& patches) {
 absl::StatusOr<PatchSet> DecodePatchSet(const std::string& bytes) {
   Reader reader(bytes);
   if (bytes.compare(0, sizeof kMagic, kMagic, sizeof kMagic) != 0) {
-    return DataLoss("it does not begin with LMBPTCH1");
+    return DataLoss("it does not begin with LMBPTCH2");
   }
   reader.Value<uint64_t>();
   PatchSet patches;
@@ -232,11 +263,7 @@ absl::StatusOr<PatchSet> DecodePatchSet(const std::string& bytes) {
   reader.Column(count, &patches.source);
   const uint64_t lights = reader.Count(sizeof(uint64_t) + sizeof(Vec3) + sizeof(Rgb));
   for (uint64_t i = 0; i < lights && reader.ok(); ++i) {
-    PointLight light;
-    light.name = reader.Text();
-    light.position = reader.Value<Vec3>();
-    light.intensity_cd = reader.Value<Rgb>();
-    patches.point_lights.push_back(std::move(light));
+    patches.lights.push_back(ReadLight(&reader));
   }
   ReadAnnotations(&reader, &patches);
   if (!reader.at_end()) return DataLoss("its length is not what its counts say");

@@ -1,7 +1,8 @@
 #include "radiosity/patch/patch_set.h"
 
 #include <charconv>
-#include <numbers>
+
+#include "radiosity/patch/light.h"
 
 namespace lambert {
 
@@ -47,9 +48,7 @@ Rgb EmittedFlux(const PatchSet& patches) {
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     flux_lm = flux_lm + patches.exitance_lm_per_m2[i] * patches.area_m2[i];
   }
-  for (const PointLight& light : patches.point_lights) {
-    flux_lm = flux_lm + light.intensity_cd * (4 * std::numbers::pi);
-  }
+  for (const Rgb& of_light : LightFlux(patches)) flux_lm = flux_lm + of_light;
   return flux_lm;
 }
 

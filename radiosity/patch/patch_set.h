@@ -37,7 +37,7 @@ struct PatchSet {
   std::vector<PatchIndex> twin;              // other side of the same triangle, or kNoPatch
   std::vector<uint8_t> is_back;              // 1 for the back of a two-sided triangle
   std::vector<PatchSource> source;
-  std::vector<PointLight> point_lights;  // positions relative to `origin`
+  std::vector<Light> lights;  // positions relative to `origin`
   // Annotations: for people and pictures, no influence on the solution.
   std::vector<std::string> node_names;  // by node index
   std::vector<Camera> cameras;          // translations relative to `origin`
@@ -56,7 +56,7 @@ Bounds BoundsOf(const PatchSet& patches);
 // index. None: empty.
 std::vector<int32_t> NodesCalled(const std::vector<std::string>& node_names,
                                  const std::string& name);
-// Emitted flux of all patches and point lights per channel [lm].
+// Emitted flux of all patches and lights per channel [lm].
 Rgb EmittedFlux(const PatchSet& patches);
 
 // Canonical bytes (docs/formats.md, "patch set"): equal sets give equal bytes on every machine.

@@ -15,7 +15,7 @@ constexpr double kHighReflectance = 0.95;  // white paint reflects .85, fresh sn
 // Area vectors of a closed surface sum to zero, up to the float32 digits of the file.
 constexpr double kClosedTolerance = 1e-5;
 
-// A point light this near to a patch lies on it; as a share of the scene's diagonal: the tracer's
+// A light this near to a patch lies on it; as a share of the scene's diagonal: the tracer's
 // offsets are about as large.
 constexpr double kOnSurface = 1e-6;
 
@@ -63,12 +63,13 @@ double DistanceToTriangle(Vec3 p, const std::array<Vec3, 3>& corners) {
       {DistanceToSegment(p, a, b), DistanceToSegment(p, b, c), DistanceToSegment(p, c, a)});
 }
 
-// Whether each point light lies on a patch. Only lights within a patch's extent in x are measured.
+// Whether each light that has a place lies on a patch. Only lights within a patch's extent in x are
+// measured.
 std::vector<bool> FindLightsOnSurfaces(const PatchSet& patches) {
-  std::vector<bool> on_surface(patches.point_lights.size());
+  std::vector<bool> on_surface(patches.lights.size());
   std::vector<std::pair<double, size_t>> by_x;  // x, index of the light
-  for (size_t l = 0; l < patches.point_lights.size(); ++l) {
-    by_x.emplace_back(patches.point_lights[l].position.x, l);
+  for (size_t l = 0; l < patches.lights.size(); ++l) {
+    if (HasPlace(patches.lights[l])) by_x.emplace_back(patches.lights[l].position.x, l);
   }
   if (by_x.empty()) return on_surface;
   std::sort(by_x.begin(), by_x.end());
@@ -77,7 +78,7 @@ std::vector<bool> FindLightsOnSurfaces(const PatchSet& patches) {
     const auto [low, high] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
     for (auto it = std::lower_bound(by_x.begin(), by_x.end(), std::pair(low - near_m, size_t{0}));
          it != by_x.end() && it->first <= high + near_m; ++it) {
-      const Vec3 position = patches.point_lights[it->second].position;
+      const Vec3 position = patches.lights[it->second].position;
       if (DistanceToTriangle(position, corners) <= near_m) on_surface[it->second] = true;
     }
   }
@@ -92,8 +93,8 @@ void AppendLightsOnSurfaces(PatchSet* patches) {
   patches->warnings.push_back(
       {"LIGHT_ON_SURFACE",
        absl::StrCat(std::count(first, on_surface.end(), true),
-                    " point light(s) lie on a patch, the first is light ", light, " \"",
-                    patches->point_lights[light].name,
+                    " light(s) lie on a patch, the first is light ", light, " \"",
+                    patches->lights[light].name,
                     "\": rounding decides which side it lights, and what it sends to the other "
                     "side is lost; move it off the surface")});
 }

@@ -118,8 +118,9 @@ std::vector<Bounds> LightsOf(const PatchSet& patches) {
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     if (patches.exitance_lm_per_m2[i] != Rgb{}) lights.push_back(BoundsOf(patches, {i}));
   }
-  for (const PointLight& light : patches.point_lights) {
-    lights.push_back({light.position, light.position});
+  // Light from outside does not get into a closed room.
+  for (const Light& light : patches.lights) {
+    if (HasPlace(light)) lights.push_back({light.position, light.position});
   }
   return lights;
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "radiosity/core/lanes.h"
+#include "radiosity/core/sin_cos.h"
 
 namespace lambert {
 namespace {
@@ -26,30 +27,6 @@ double LambertEdge(Vec3 from, Vec3 to) {
   return std::atan2(sine, Dot(from, to)) * normal.z / sine;
 }
 
-template <typename Real>
-struct SineCosineOf {
-  Real sine, cosine;
-};
-
-template <typename Real>
-SineCosineOf<Real> SeriesSinCos(Real x) {
-  // Taylor series of an eighth of the angle, doubled three times.
-  const Real t = x * 0.125, t2 = t * t;
-  Real s =
-      t * (1 + t2 * (-1.0 / 6 +
-                     t2 * (1.0 / 120 + t2 * (-1.0 / 5040 + t2 * (1.0 / 362880 - t2 / 39916800)))));
-  Real c =
-      1 + t2 * (-0.5 +
-                t2 * (1.0 / 24 + t2 * (-1.0 / 720 + t2 * (1.0 / 40320 -
-                                                          t2 * (1.0 / 3628800 - t2 / 479001600)))));
-  for (int doubling = 0; doubling < 3; ++doubling) {
-    const Real sine = 2 * s * c;
-    c = (c - s) * (c + s);
-    s = sine;
-  }
-  return {s, c};
-}
-
 // ArvoConstants of one triangle, or of one a lane.
 template <typename Real>
 struct Constants {
@@ -61,7 +38,7 @@ struct Constants {
 template <typename Real>
 Vector<Real> Arvo(const Constants<Real>& k, Real xi1, Real xi2) {
   const Real zero = xi1 - xi1, one = zero + 1;
-  const SineCosineOf<Real> area = SeriesSinCos(xi1 * k.solid_angle);
+  const SineCosineOf<Real> area = SinCos(xi1 * k.solid_angle);
   const Real s = area.sine * k.cos_alpha - area.cosine * k.sin_alpha;  // sin(A^ - alpha)
   const Real t = area.cosine * k.cos_alpha + area.sine * k.sin_alpha;  // cos(A^ - alpha)
   const Real u = t - k.cos_alpha;
@@ -87,11 +64,6 @@ Vector<Real> Arvo(const Constants<Real>& k, Real xi1, Real xi2) {
 Vector<double> ToVector(Vec3 v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
-
-SineCosine SinCos(double x) {
-  const SineCosineOf<double> result = SeriesSinCos(x);
-  return {result.sine, result.cosine};
-}
 
 double FluxFraction(Vec3 a, Vec3 b, Vec3 c) {
   return (LambertEdge(a, b) + LambertEdge(b, c) + LambertEdge(c, a)) / (2 * std::numbers::pi);

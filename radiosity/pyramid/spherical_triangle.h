@@ -8,13 +8,6 @@
 
 namespace lambert {
 
-// Sine and cosine without libm, equal to the last bit on every machine; error under 1e-14.
-// Requires: |x| <= pi.
-struct SineCosine {
-  double sine = 0, cosine = 1;
-};
-SineCosine SinCos(double x);
-
 // What sampling a triangle A B C needs (Arv95).
 struct ArvoConstants {
   Vec3 a, b;

@@ -23,7 +23,7 @@ struct KnownExtension {
 
 constexpr KnownExtension kKnown[] = {
     {"EXT_mesh_gpu_instancing", Support::kRead},
-    {"KHR_lights_punctual", Support::kCounted},
+    {"KHR_lights_punctual", Support::kRead},
     {"KHR_materials_anisotropy", Support::kLeftOut},
     {"KHR_materials_clearcoat", Support::kLeftOut},
     {"KHR_materials_diffuse_transmission", Support::kCounted},

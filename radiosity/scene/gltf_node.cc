@@ -9,6 +9,7 @@
 #include "radiosity/scene/gltf_container.h"
 #include "radiosity/scene/gltf_extensions.h"
 #include "radiosity/scene/gltf_forest.h"
+#include "radiosity/scene/gltf_light.h"
 #include "radiosity/scene/gltf_transform.h"
 
 namespace lambert {
@@ -30,14 +31,15 @@ std::string ShortName(const std::string& name, UnreadFeatures* unread) {
   return name.substr(0, end);
 }
 
-// The camera's own axes, orthonormal and right-handed; nullopt where scales of zero left none.
+// The axes of a camera or light, orthonormal and right-handed; nullopt where scales of zero left
+// none.
 std::optional<Transform> Orthonormal(const Transform& world) {
-  Transform camera = world;
-  camera.z = Normalized(world.z);
-  camera.x = Normalized(Cross(world.y, camera.z));
-  camera.y = Cross(camera.z, camera.x);
-  if (!IsFinite(camera)) return std::nullopt;
-  return camera;
+  Transform axes = world;
+  axes.z = Normalized(world.z);
+  axes.x = Normalized(Cross(world.y, axes.z));
+  axes.y = Cross(axes.z, axes.x);
+  if (!IsFinite(axes)) return std::nullopt;
+  return axes;
 }
 
 std::optional<Camera> ReadCamera(const tinygltf::Camera& gltf, const Transform& world) {
@@ -149,15 +151,16 @@ class NodeWalker {
     if (!(*index >= 0) || *index >= static_cast<double>(model_.lights.size())) {
       return NodeError(node, absl::StrCat("its light ", *index, " does not exist"));
     }
-    const tinygltf::Light& light = model_.lights[static_cast<size_t>(*index)];
-    if (light.type != "point") {
-      unread_->Add(Printable(light.type) + " lights", "node", "left out");
+    const tinygltf::Light& from = model_.lights[static_cast<size_t>(*index)];
+    absl::StatusOr<std::optional<Light>> light =
+        ReadLight(from, world.translation, Orthonormal(world), absl::StrCat("node ", node));
+    if (!light.ok()) return light.status();
+    if (!*light) {
+      unread_->Add("spot and directional lights without axes", "node", "left out");
       return absl::OkStatus();
     }
-    Rgb color{1, 1, 1};
-    if (light.color.size() == 3) color = {light.color[0], light.color[1], light.color[2]};
-    scene_->point_lights.push_back({ShortName(gltf.name.empty() ? light.name : gltf.name, unread_),
-                                    world.translation, color * light.intensity});
+    (*light)->name = ShortName(gltf.name.empty() ? from.name : gltf.name, unread_);
+    scene_->lights.push_back(**std::move(light));
     return absl::OkStatus();
   }
 

@@ -15,7 +15,7 @@ namespace lambert {
 // By node: where it stands; none for nodes that are not in the scene.
 using NodeWorlds = std::vector<std::optional<Transform>>;
 
-// Fills instances, node names, cameras and point lights of `scene` with those of the default scene.
+// Fills instances, node names, cameras and lights of `scene` with those of the default scene.
 // SceneError naming the node for children, meshes, cameras or lights that do not exist, for nodes
 // with two parents or inside themselves, and for transforms that are not finite or not affine.
 // SCENE_TOO_LARGE

@@ -76,12 +76,24 @@ struct Camera {
   double aspect = 1.5;       // width / height; 0 where the file leaves it open
 };
 
-// An isotropic point light (KHR_lights_punctual): it sends 4 pi intensity lumen.
-struct PointLight {
+// A light without a surface (KHR_lights_punctual).
+struct Light {
+  enum class Kind : uint8_t {
+    kPoint = 0,    // from a place, the same all around or in a cone
+    kDistant = 1,  // parallel, from outside the scene
+  };
   std::string name;
-  Vec3 position;  // metres, world
-  Rgb intensity_cd;
+  Vec3 position;  // kPoint: metres, world
+  Rgb strength;   // kPoint: intensity inside the cone [cd]; kDistant: illuminance of a surface that
+                  // faces the light [lx]
+  Kind kind = Kind::kPoint;
+  Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // orthonormal; z: where it shines
+  // kPoint: the cone, by the cosine of the angle to z. Intensity is whole from cos_inner on, none
+  // under cos_outer, and falls by the square of the part of the way in between. All around: -1, -1.
+  // cos_inner may be over 1: then it is nowhere whole.
+  double cos_inner = -1, cos_outer = -1;
 };
+inline bool HasPlace(const Light& light) { return light.kind != Light::Kind::kDistant; }
 
 struct Scene {
   std::vector<Texture> textures;
@@ -90,7 +102,7 @@ struct Scene {
   std::vector<Instance> instances;      // of the default scene, in node order
   std::vector<std::string> node_names;  // by node index; "" where the file gives none
   std::vector<Camera> cameras;
-  std::vector<PointLight> point_lights;
+  std::vector<Light> lights;
   std::vector<Warning> warnings;
 };
 

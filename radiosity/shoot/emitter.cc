@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "radiosity/pyramid/local_frame.h"
 
@@ -116,9 +115,9 @@ Emitters::Emitters(const PatchSet& patches, const RayScene& scene, const Surface
     ToFloats(local.x, frame.x);
     ToFloats(local.z, frame.z);
   }
-  for (const PointLight& light : patches.point_lights) {
-    ToFloats(scene.ToTrace(light.position), point_lights_.emplace_back().data());
-  }
+  if (patches.lights.empty()) return;
+  const Bounds box = BoundsOf(patches);
+  for (const Light& light : patches.lights) lights_.emplace_back(light, box, scene);
 }
 
 EmitterFrame8 Emitters::Frames(const uint32_t emitters[8]) const {
@@ -140,24 +139,6 @@ void AppendCosineRays(const EmitterFrame& frame, const RayNumbers& numbers, uint
   const EmitterFrame8 f = Gather(one);
   ForEachGroup(numbers, begin, end, batch, [&](int slot, const RandomNumbers8& random) {
     PutCosineRays(f, random, batch, slot);
-  });
-}
-
-void AppendSphereRays(const float position[3], const RayNumbers& numbers, uint32_t begin,
-                      uint32_t end, RayBatch& batch) {
-  ForEachGroup(numbers, begin, end, batch, [&](int first, const RandomNumbers8& random) {
-    for (int lane = 0; lane < 8; ++lane) {
-      const int slot = first + lane;
-      const double z = 1 - 2.0 * random.numbers[2][lane];
-      const SineCosine angle = SinCos(std::numbers::pi * (2.0 * random.numbers[3][lane] - 1));
-      const double radius = std::sqrt(std::max(0.0, 1 - z * z));
-      batch.origin_x[slot] = position[0];
-      batch.origin_y[slot] = position[1];
-      batch.origin_z[slot] = position[2];
-      batch.direction_x[slot] = static_cast<float>(radius * angle.cosine);
-      batch.direction_y[slot] = static_cast<float>(radius * angle.sine);
-      batch.direction_z[slot] = static_cast<float>(z);
-    }
   });
 }
 

@@ -1,5 +1,4 @@
-// Where rays start and which way they go: positions on patches and point lights, directions by the
-// cosine law, over the sphere, or inside a pyramid.
+// Where the rays of patches start and which way they go: by the cosine law, or inside a pyramid.
 #pragma once
 
 #include <vector>
@@ -8,6 +7,7 @@
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/patch/surface_tree.h"
 #include "radiosity/pyramid/spherical_triangle.h"
+#include "radiosity/shoot/light_rays.h"
 #include "radiosity/shoot/ray_numbers.h"
 #include "radiosity/trace/ray_batch.h"
 #include "radiosity/trace/ray_scene.h"
@@ -26,36 +26,31 @@ struct EmitterFrame8 {
   Vector<Float8> x, y, z;
 };
 
-// The frames of all patches; point lights have a position only. Immutable.
+// The frames of all patches; lights shoot from their own (light_rays.h). Immutable.
 class Emitters {
  public:
   // `tree` of the patches, or null: whose frames they are (local_frame.h).
   Emitters(const PatchSet& patches, const RayScene& scene, const SurfaceTree* tree = nullptr);
 
   PatchIndex patch_count() const { return static_cast<PatchIndex>(frames_.size()); }
-  PatchIndex size() const { return patch_count() + static_cast<PatchIndex>(point_lights_.size()); }
-  bool IsPointLight(PatchIndex emitter) const { return emitter >= patch_count(); }
+  PatchIndex size() const { return patch_count() + static_cast<PatchIndex>(lights_.size()); }
+  bool IsLight(PatchIndex emitter) const { return emitter >= patch_count(); }
   // Requires: emitter < patch_count().
   const EmitterFrame& Frame(PatchIndex emitter) const { return frames_[emitter]; }
   void Prefetch(PatchIndex emitter) const { __builtin_prefetch(&frames_[emitter]); }
   EmitterFrame8 Frames(const uint32_t emitters[8]) const;
-  // Requires: IsPointLight(emitter).
-  const float* Position(PatchIndex emitter) const {
-    return point_lights_[emitter - patch_count()].data();
-  }
+  // Requires: IsLight(emitter).
+  const LightRays& LightOf(PatchIndex emitter) const { return lights_[emitter - patch_count()]; }
 
  private:
   std::vector<EmitterFrame> frames_;
-  std::vector<std::array<float, 3>> point_lights_;
+  std::vector<LightRays> lights_;
 };
 
 // Each appends rays [begin, end) of a visit to the batch. Requires: room for them.
 
 // Uniform on the patch, cosine law (figure 2 of JPS00; the direction by SC97's concentric map).
 void AppendCosineRays(const EmitterFrame& frame, const RayNumbers& numbers, uint32_t begin,
-                      uint32_t end, RayBatch& batch);
-// Uniform over the sphere.
-void AppendSphereRays(const float position[3], const RayNumbers& numbers, uint32_t begin,
                       uint32_t end, RayBatch& batch);
 
 // Each appends `count` <= 8 rays of any patches, lane by lane, and may write to eight slots: the

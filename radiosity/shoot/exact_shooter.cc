@@ -63,7 +63,7 @@ class ExactShooter : public Shooter {
 
 absl::StatusOr<std::array<Flux, 3>> ExactShooter::Emitted(const WorkUnit& unit) const {
   if (unit.pass >= 1u << 16) return BadUnit("pass is 65536 or more");
-  const size_t emitters = patches_->corners.size() + patches_->point_lights.size();
+  const size_t emitters = patches_->corners.size() + patches_->lights.size();
   std::array<Flux, 3> emitted;
   emitted.fill(Flux(emitters));
   Rgb total;

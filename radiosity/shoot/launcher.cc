@@ -104,9 +104,9 @@ absl::Status Launcher::Launch(const WorkUnit& unit, Flight& flight) const {
     }
     flight.Begin(visit);
     const PatchIndex place = PlaceFor(unit, visit);
-    if (emitters_.IsPointLight(visit.emitter)) {
+    if (emitters_.IsLight(visit.emitter)) {
       volley.Finish();
-      ShootSphere(visit, stream, flight);
+      ShootLight(visit, stream, flight);
     } else if (place == kNoPatch) {
       volley.ShootCosine(visit);
     } else if (options_.method == Method::kHs97) {
@@ -121,13 +121,13 @@ absl::Status Launcher::Launch(const WorkUnit& unit, Flight& flight) const {
   return absl::OkStatus();
 }
 
-void Launcher::ShootSphere(const Visit& visit, RandomStream stream, Flight& flight) const {
+void Launcher::ShootLight(const Visit& visit, RandomStream stream, Flight& flight) const {
   stream.emitter = static_cast<uint32_t>(visit.emitter);
   const RayNumbers numbers(stream, options_.sequence);
   for (uint32_t ray = visit.ray_begin; ray < visit.ray_end;) {
     const uint32_t until = ray + std::min(flight.Room(), visit.ray_end - ray);
     const int slot = flight.batch().size;
-    AppendSphereRays(emitters_.Position(visit.emitter), numbers, ray, until, flight.batch());
+    emitters_.LightOf(visit.emitter).Append(numbers, ray, until, flight.batch());
     flight.SetFlux(slot, RayDeal(visit.quanta, visit.ray_count), ray, until);
     flight.LandIfFull();
     ray = until;

@@ -56,11 +56,11 @@ class Launcher {
   }
   // Whose directions the rays of a visit follow (DirectionTable::PlaceFor); kNoPatch: all the same.
   PatchIndex PlaceFor(const WorkUnit& unit, const Visit& visit) const {
-    if (directions_ == nullptr || emitters_.IsPointLight(visit.emitter)) return kNoPatch;
+    if (directions_ == nullptr || emitters_.IsLight(visit.emitter)) return kNoPatch;
     return directions_->PlaceFor(visit, unit.rays_per_m2);
   }
   Stage ProbingStage(const Visit& visit) const;
-  void ShootSphere(const Visit& visit, RandomStream stream, Flight& flight) const;
+  void ShootLight(const Visit& visit, RandomStream stream, Flight& flight) const;
   std::vector<CellHit> ShootProbes(const WorkUnit& unit, Offsets& offsets, Volley& volley,
                                    Flight& flight) const;
   void ShootFollowing(const Visit& visit, absl::Span<const CellHit> seen, uint32_t offset,

@@ -5,6 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "radiosity/patch/cone.h"
+#include "radiosity/patch/light.h"
+
 namespace lambert {
 namespace {
 
@@ -37,13 +40,21 @@ Refinement::Refinement(const PatchSet& patches, const RayScene& scene, const Sur
     leaf.parent = tree.ParentOf(i);
     leaf.surface = leaf.parent < 0 ? leaf.area : surface[leaf.parent];
   }
+  const Bounds box = BoundsOf(patches);
+  for (const Light& light : patches.lights) {
+    const double extent = HasPlace(light) ? Cone(light.cos_inner, light.cos_outer).SolidAngle()
+                                          : ProjectedArea(box, light.z) * area_scale;
+    beams_.push_back({!HasPlace(light), static_cast<float>(extent)});
+  }
 }
 
 float Refinement::MostArea(const Visit& visit, float rays_per_area, const float direction[3],
                            float distance, float cosine) const {
   const float square = kPi * distance * distance;
-  if (static_cast<size_t>(visit.emitter) >= leaves_.size()) {  // a point light
-    return flux_ * 4 * square / (static_cast<float>(visit.ray_count) * cosine);
+  if (static_cast<size_t>(visit.emitter) >= leaves_.size()) {
+    const Beam& beam = beams_[visit.emitter - leaves_.size()];
+    const float width = beam.is_parallel ? beam.extent : beam.extent * distance * distance;
+    return flux_ * width / (static_cast<float>(visit.ray_count) * cosine);
   }
   const Leaf& source = leaves_[visit.emitter];
   const float leaving = std::max(kLeastCosine, Dot3(direction, source.normal) / distance);

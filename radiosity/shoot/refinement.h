@@ -46,6 +46,11 @@ class Refinement {
     float area = 0, radius = 0;
     int32_t parent = -1;
   };
+  // Over what the rays of a light spread where they are densest: a solid angle [sr], or an area.
+  struct Beam {
+    bool is_parallel = false;
+    float extent = 0;
+  };
   // Area of the largest element that light of this source may rest at.
   float MostArea(const Visit& visit, float rays_per_area, const float direction[3], float distance,
                  float cosine) const;
@@ -54,6 +59,7 @@ class Refinement {
   const double per_area_;  // square metres in trace coordinates, inverse
   std::vector<Leaf> leaves_;
   std::vector<Node> nodes_;
+  std::vector<Beam> beams_;  // of each light
 };
 
 }  // namespace lambert

@@ -20,7 +20,7 @@ namespace {
 
 // Changes whenever the same unit, of shooting or of gathering (gather_units.h), would give other
 // bytes.
-constexpr char kCodeVersion[] = "shoot-7,gather-1";
+constexpr char kCodeVersion[] = "shoot-8,gather-1";
 
 class EmbreeShooter : public Shooter {
  public:

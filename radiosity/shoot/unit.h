@@ -34,7 +34,7 @@ inline constexpr int kMaxQuantaBits = 54;
 inline constexpr int64_t kMaxUnitQuanta = std::numeric_limits<int64_t>::max() / 404;  // 1.27 * 2^54
 
 // Rays [ray_begin, ray_end) of the `ray_count` rays that share the quanta of one emitter.
-// Emitter: patch index, or patches.size() + l for point light l.
+// Emitter: patch index, or patches.size() + l for light l.
 struct Visit {
   PatchIndex emitter = 0;
   uint32_t ray_count = 0;

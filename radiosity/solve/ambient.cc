@@ -30,8 +30,8 @@ Ambient::Ambient(const PatchSet& patches, const std::vector<int32_t>& group_of,
   groups_.resize(1 + *std::max_element(group_of.begin(), group_of.end()));
   for (PatchIndex i = 0; i < patches.size(); ++i) groups_[group_of[i]].members.push_back(i);
   GuessFromMaterials();
-  // The flux of point lights enters groups that are not known.
-  if (!before.flux_lm.empty() && patches.point_lights.empty()) GuessFromSolution(before);
+  // The flux of lights enters groups that are not known.
+  if (!before.flux_lm.empty() && patches.lights.empty()) GuessFromSolution(before);
 }
 
 // If the group is closed and its irradiance uniform.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radiosity/patch/light.h"
+
 namespace lambert {
 namespace {
 
@@ -66,10 +68,8 @@ FluxLedger::FluxLedger(const PatchSet& patches, const SurfaceTree* tree)
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     AddUnsent(i, patches.exitance_lm_per_m2[i] * patches.area_m2[i]);
   }
-  for (size_t l = 0; l < patches.point_lights.size(); ++l) {
-    AddUnsent(patches.size() + static_cast<int32_t>(l),
-              patches.point_lights[l].intensity_cd * (4 * M_PI));
-  }
+  int32_t emitter = patches.size();
+  for (const Rgb& flux_lm : LightFlux(patches)) AddUnsent(emitter++, flux_lm);
 }
 
 void FluxLedger::AddUnsent(int32_t emitter, Rgb flux_lm) {

@@ -28,7 +28,7 @@ std::vector<UnsentFlux> Scaled(std::vector<UnsentFlux> flux, double factor);
 
 class FluxLedger {
  public:
-  // All emitters' emission is unsent: patches first, then point lights. With a `tree` of the
+  // All emitters' emission is unsent: patches first, then lights. With a `tree` of the
   // patches, which must outlive the ledger, what arrived is what came to rest (UnitResult::rests).
   explicit FluxLedger(const PatchSet& patches, const SurfaceTree* tree = nullptr);
 

@@ -38,16 +38,16 @@ Need ColorNeed(const PatchSet& patches) {
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     if (!IsGray(patches.reflectance[i]) || !IsGray(patches.exitance_lm_per_m2[i])) ++colored;
   }
-  const auto lights = std::count_if(patches.point_lights.begin(), patches.point_lights.end(),
-                                    [](const PointLight& l) { return !IsGray(l.intensity_cd); });
+  const auto lights = std::count_if(patches.lights.begin(), patches.lights.end(),
+                                    [](const Light& light) { return !IsGray(light.strength); });
   if (colored + lights == 0) {
     // Deposits are 16 bytes for 32, visits 32 for 48.
     return {Part::kColor, "three channels", false, "all reflectances and all lights are gray",
             "half of the bytes of a result, a third of those of a unit, and " +
                 Text(16e-6 * patches.size()) + " MB in each thread of a worker"};
   }
-  const std::string reason = std::to_string(colored) + " patches and " + std::to_string(lights) +
-                             " point lights are not gray";
+  const std::string reason =
+      std::to_string(colored) + " patches and " + std::to_string(lights) + " lights are not gray";
   return {Part::kColor, "three channels", true, reason, "", reason};
 }
 

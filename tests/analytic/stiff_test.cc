@@ -136,7 +136,7 @@ TEST(StiffRooms, APointLightInAFurnaceKeepsItsPower) {
                                          .Box({0, 0, 0}, {1, 1, 1}, true, {Gray(0.9999)}, 2)
                                          .Light({0.4, 0.5, 0.6}, {1, 1, 1})
                                          .Make());
-  const double flux = patches.point_lights[0].intensity_cd.r * 4 * 3.14159265358979323846;
+  const double flux = patches.lights[0].strength.r * 4 * 3.14159265358979323846;
   ExpectTruths(patches, WithRays(Method::kPmcr, 100000),
                {PowerOf(patches, 0, flux * 0.9999 / 1e-4)});
 }

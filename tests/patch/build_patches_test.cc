@@ -196,7 +196,7 @@ TEST(BuildPatches, ValuesThatAreNotFiniteAreRefusedByName) {
   scene.instances[0].world.translation.x = kNan;
   EXPECT_NE(BuildPatches(scene, {}).status().message().find("node 0"), std::string::npos);
   scene = MakeFurnace(0.5);
-  scene.point_lights.push_back({"bad", {}, {kNan, 0, 0}});
+  scene.lights.push_back({"bad", {}, {kNan, 0, 0}});
   EXPECT_EQ(ReasonOf(BuildPatches(scene, {}).status()), "SCENE_INVALID");
 }
 
@@ -225,7 +225,7 @@ TEST(BuildPatches, LightsAndCamerasMoveWithTheOrigin) {
                           .LookFrom({11, 11, 11.75}, {11, 11, 11})
                           .Make();
   const PatchSet patches = PatchesOf(scene);
-  EXPECT_EQ(patches.point_lights[0].position, (Vec3{0, 0.5, 0}));
+  EXPECT_EQ(patches.lights[0].position, (Vec3{0, 0.5, 0}));
   EXPECT_EQ(patches.cameras[0].world.translation, (Vec3{0, 0, 0.75}));
   EXPECT_NEAR(EmittedFlux(patches).r, 400 * std::numbers::pi, 1e-9);
 }

@@ -35,5 +35,14 @@ TEST(IsConvex, ALightBehindAWallIsOutside) {
   EXPECT_FALSE(IsConvex(room({0.5, 0.5, 1.5})));
 }
 
+TEST(IsConvex, ADistantLightMustLightEveryFront) {
+  PatchSet floor = PatchesOf(SceneMaker().Quad({}, {0, 0, 1}, {1, 0, 0}, {}).Make());
+  floor.lights.push_back({"sun", {0, -9, 0}, {1, 1, 1}, Light::Kind::kDistant});
+  floor.lights[0].z = {0.6, -0.8, 0};
+  EXPECT_TRUE(IsConvex(floor));
+  floor.lights[0].z = {0.6, 0.8, 0};
+  EXPECT_FALSE(IsConvex(floor));
+}
+
 }  // namespace
 }  // namespace lambert

@@ -27,7 +27,7 @@ TEST(PatchCodec, DecodingGivesBackWhatWasEncoded) {
   EXPECT_EQ(decoded->source, patches.source);
   EXPECT_EQ(decoded->warnings, patches.warnings);
   EXPECT_EQ(decoded->cameras.size(), 1u);
-  EXPECT_EQ(decoded->point_lights.size(), 1u);
+  EXPECT_EQ(decoded->lights.size(), 1u);
   EXPECT_EQ(EncodePatchSet(*decoded), bytes);
 }
 
@@ -77,7 +77,16 @@ TEST(PatchCodec, ValuesThatWouldHurtLaterAreRefused) {
   patches.exitance_lm_per_m2[1].b = -1;
   expect_refused(patches);
   patches = Everything();
-  patches.point_lights[0].intensity_cd.r = -1;
+  patches.lights[0].strength.r = -1;
+  expect_refused(patches);
+  patches = Everything();
+  patches.lights[0].kind = static_cast<Light::Kind>(77);
+  expect_refused(patches);
+  patches = Everything();
+  patches.lights[0].z.x = 0.5;
+  expect_refused(patches);
+  patches = Everything();
+  patches.lights[0].cos_inner = -2;
   expect_refused(patches);
   patches = Everything();
   patches.cameras[0].world.y.z = std::nan("");

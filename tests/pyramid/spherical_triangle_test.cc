@@ -37,19 +37,6 @@ std::vector<NamedTriangle> Triangles() {
       {"around the pole", {FromAngles(0.9, 0), FromAngles(1.1, 2), FromAngles(0.7, 4)}}};
 }
 
-TEST(SinCos, EqualsTheStandardLibraryWithinItsErrorOverTheCircle) {
-  double worst = 0;
-  constexpr int kSteps = 200000;
-  for (int k = -kSteps; k <= kSteps; ++k) {
-    const double x = kPi * k / kSteps;
-    const SineCosine at = SinCos(x);
-    worst = std::max({worst, std::abs(at.sine - std::sin(x)), std::abs(at.cosine - std::cos(x))});
-  }
-  EXPECT_LT(worst, 1e-14);
-  EXPECT_EQ(SinCos(0).sine, 0);
-  EXPECT_EQ(SinCos(0).cosine, 1);
-}
-
 TEST(SphericalTriangle, SolidAngleEqualsAnotherFormula) {
   for (const auto& [name, t] : Triangles()) {
     EXPECT_NEAR(t.solid_angle(), SolidAngle(t.a(), t.b(), t.c()), 1e-14) << name;

@@ -217,28 +217,6 @@ TEST(LoadGltf, CamerasLoseTheScaleOfTheirNode) {
   EXPECT_EQ(scene->cameras[1].name, "plan");
 }
 
-TEST(LoadGltf, PointLightsStandWhereTheirNodesAreAndOthersAreNamed) {
-  GltfDocument document;
-  document.json["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "point"}, {"intensity", 100}, {"color", {1, 0.5, 0}}},
-      {{"type", "spot"}, {"spot", nlohmann::json::object()}},
-      {{"type", "directional"}}};
-  document.json["extensionsUsed"] = {"KHR_lights_punctual"};
-  for (int light : {0, 1, 2}) {
-    document.json["nodes"].push_back(
-        {{"translation", {light, 2, 3}},
-         {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
-  }
-  document.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
-  const absl::StatusOr<Scene> scene = document.Load();
-  ASSERT_TRUE(scene.ok()) << scene.status();
-  ASSERT_EQ(scene->point_lights.size(), 1u);
-  EXPECT_EQ(scene->point_lights[0].position, (Vec3{0, 2, 3}));
-  EXPECT_EQ(scene->point_lights[0].intensity_cd, (Rgb{100, 50, 0}));
-  EXPECT_TRUE(Mentions(*scene, "spot lights (1 node)"));
-  EXPECT_TRUE(Mentions(*scene, "directional lights (1 node)"));
-}
-
 TEST(LoadGltf, EverythingThatIsNotReadIsNamedOnce) {
   GltfDocument document;
   document.Material()["alphaMode"] = "BLEND";

@@ -27,7 +27,7 @@ class EmitterTest : public testing::Test {
                      {1.0f, 1.0f, 1.0f}, {1.9f, 1.1f, 1.05f}, {1.01f, 1.01f, 1.0f}};
     odd.triangles = {{0, 1, 2}, {3, 4, 5}};
     scene.meshes[0].primitives.push_back(odd);
-    scene.point_lights.push_back({"", {0.5, 0.6, 0.7}, {1, 1, 1}});
+    scene.lights.push_back({"", {0.5, 0.6, 0.7}, {1, 1, 1}});
     patches_ = new PatchSet(PatchesOf(scene));
     scene_ = RayScene::Create(*patches_)->release();
     emitters_ = new Emitters(*patches_, *scene_);
@@ -156,10 +156,8 @@ void ForRays(uint32_t count, Append append, Use use) {
 TEST_F(EmitterTest, FramesAreThePatchesInTraceCoordinates) {
   ASSERT_EQ(emitters_->patch_count(), patches_->size());
   ASSERT_EQ(emitters_->size(), patches_->size() + 1);
-  EXPECT_FALSE(emitters_->IsPointLight(patches_->size() - 1));
-  EXPECT_TRUE(emitters_->IsPointLight(patches_->size()));
-  const Vec3 light = scene_->ToTrace(patches_->point_lights[0].position);
-  EXPECT_NEAR(Length(ToVec(emitters_->Position(patches_->size())) - light), 0, 1e-7);
+  EXPECT_FALSE(emitters_->IsLight(patches_->size() - 1));
+  EXPECT_TRUE(emitters_->IsLight(patches_->size()));
   for (PatchIndex i = 0; i < patches_->size(); ++i) {
     const EmitterFrame f = emitters_->Frame(i);
     const auto& corners = patches_->corners[i];
@@ -215,29 +213,6 @@ TEST_F(EmitterTest, RaysStartAboveTheirPatchAndInsideIt) {
           ASSERT_GE(ray.direction.z, -1e-6);
         });
   }
-}
-
-TEST_F(EmitterTest, SphereRaysAreUniformOverTheSphere) {
-  const PatchIndex light = patches_->size();
-  std::vector<int64_t> counts(8 * 12);
-  ForRays(
-      100000,
-      [&](uint32_t begin, uint32_t end, RayBatch& batch) {
-        AppendSphereRays(emitters_->Position(light), RandomStream{4, 99, 1, 2}, begin, end, batch);
-      },
-      [&](const RayBatch& batch, int slot) {
-        const Vec3 d{batch.direction_x[slot], batch.direction_y[slot], batch.direction_z[slot]};
-        ASSERT_NEAR(Length(d), 1, 1e-6);
-        ASSERT_EQ(batch.origin_x[slot], emitters_->Position(light)[0]);
-        ASSERT_EQ(batch.origin_y[slot], emitters_->Position(light)[1]);
-        ASSERT_EQ(batch.origin_z[slot], emitters_->Position(light)[2]);
-        // Archimedes: slices of equal height have equal area.
-        const int slice = std::clamp(static_cast<int>((d.z + 1) * 4), 0, 7);
-        const int sector =
-            std::clamp(static_cast<int>((std::atan2(d.y, d.x) + kPi) * 6 / kPi), 0, 11);
-        ++counts[slice * 12 + sector];
-      });
-  EXPECT_LT(ChiSquared(counts, std::vector<double>(96, 1.0 / 96)), ChiSquaredQuantile(95));
 }
 
 TEST_F(EmitterTest, SolidAngleRaysAreUniformInTheirPyramidAndKnowTheirCosine) {
@@ -317,7 +292,7 @@ TEST_F(EmitterTest, RaysDoNotDependOnHowTheirRangeIsCut) {
   alignas(64) float cosine[RayBatch::kSlots];
   const auto append = [&](int kind, uint32_t begin, uint32_t end, RayBatch& batch) {
     if (kind == 0) AppendCosineRays(frame, stream, begin, end, batch);
-    if (kind == 1) AppendSphereRays(frame.corner, stream, begin, end, batch);
+    if (kind == 1) emitters_->LightOf(patches_->size()).Append(stream, begin, end, batch);
     if (kind == 2) AppendSolid(*emitters_, pyramid, stream, begin, end, batch, cosine);
     if (kind == 3) AppendProjected(*emitters_, pyramid, stream, begin, end, batch);
     if (kind == 4) AppendGrid(*emitters_, 8, 5, stream, begin, end, batch);

@@ -12,12 +12,20 @@
 namespace lambert {
 namespace {
 
+// All around, and straight down.
+PatchSet WithLights(PatchSet patches) {
+  Light sun{"", {}, {1, 1, 1}, Light::Kind::kDistant};
+  sun.z = {0, -1, 0};
+  patches.lights = {{"", {0, 0.5, 0}, {1, 1, 1}}, sun};
+  return patches;
+}
+
 // The floor and the ceiling of a cube of 1 m, 16 x 16 squares each, and a ray from the middle of
 // the one to the middle of the other.
 class RefinementOfACube : public testing::Test {
  protected:
   RefinementOfACube()
-      : patches_(PatchesOf(MakeBox(1, {0.5, 0.5, 0.5}, std::vector<Rgb>(6), 16))),
+      : patches_(WithLights(PatchesOf(MakeBox(1, {0.5, 0.5, 0.5}, std::vector<Rgb>(6), 16)))),
         tree_(patches_),
         scene_(*RayScene::Create(patches_)) {
     const Vec3 middle = {0.01, 0, 0.02};  // the patch set's origin is the cube's middle
@@ -90,6 +98,14 @@ TEST_F(RefinementOfACube, TheRadiusIsBoundedByTheDistance) {
 TEST_F(RefinementOfACube, RaysOfAPointLightAreCountedOverTheSphere) {
   const double most = 0.5 * 4 * std::numbers::pi / 100;
   const double area = RestingArea(0.5, 10, 100, 1e9, patches_.size());
+  EXPECT_LE(area, 1.05 * most);
+  EXPECT_GE(area, 0.45 * most);
+}
+
+// n rays of a distant light over the square metre of the cube that it sees.
+TEST_F(RefinementOfACube, RaysOfADistantLightAreCountedOverItsBeam) {
+  const double most = 0.5 / 10;
+  const double area = RestingArea(0.5, 10, 10, 1e9, patches_.size() + 1);
   EXPECT_LE(area, 1.05 * most);
   EXPECT_GE(area, 0.45 * most);
 }

@@ -100,7 +100,7 @@ TEST(PhsFlux, ArrivesWhereThatOfPmcrArrives) {
 
 TEST(PointLightFlux, FromTheCentreOfACubeReachesItsSixFacesAlike) {
   PatchSet cube = PatchesOf(MakeFurnace(0.5));
-  cube.point_lights.push_back({"", {0, 0, 0}, {1, 1, 1}});
+  cube.lights.push_back({"", {0, 0, 0}, {1, 1, 1}});
   const auto patches = std::make_shared<const PatchSet>(cube);
   for (Method method : {Method::kPmcr, Method::kPhs}) {
     ShootOptions options;

@@ -16,7 +16,7 @@ namespace {
 std::shared_ptr<const PatchSet> Patches() {
   static const std::shared_ptr<const PatchSet> patches = [] {
     PatchSet set = PatchesOf(MakeCornell(2));
-    set.point_lights.push_back({"", {0.1, 0.2, 0.3}, {1, 1, 1}});
+    set.lights.push_back({"", {0.1, 0.2, 0.3}, {1, 1, 1}});
     for (PatchIndex i = 0; i < set.size(); i += 10) set.reflectance[i] = {};
     return std::make_shared<const PatchSet>(std::move(set));
   }();

@@ -25,7 +25,7 @@ TEST(CompensatedSum, OfAMillionTenthsIsRightToTheLastBit) {
 
 TEST(FluxLedger, StartsWithAllEmissionUnsentPatchesFirst) {
   Scene scene = MakeCornell(1);
-  scene.point_lights.push_back({"", {1, 1, 1}, {10, 20, 30}});
+  scene.lights.push_back({"", {1, 1, 1}, {10, 20, 30}});
   const PatchSet patches = PatchesOf(scene);
   const FluxLedger ledger(patches);
   std::vector<UnsentFlux> emitting;

@@ -53,7 +53,7 @@ TEST(PartColor, IsNeededWhereAPatchOrALightHasAColor) {
   PatchSet patch = *GrayRoom(), lamp = patch, light = patch;
   patch.reflectance[3].g = 0.7;
   lamp.exitance_lm_per_m2[3] = {1, 1, 1.5};
-  light.point_lights[0].intensity_cd.b = 0;
+  light.lights[0].strength.b = 0;
   EXPECT_TRUE(ValidateFor(*GrayRoom(), Without({}, Part::kColor)).ok());
   for (const PatchSet& colored : {patch, lamp, light}) {
     EXPECT_TRUE(MakePlan(colored, {}).options.shoot.parts.with.Has(Part::kColor));

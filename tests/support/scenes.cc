@@ -100,7 +100,7 @@ SceneMaker& SceneMaker::Box(Vec3 low, Vec3 high, bool inward, const std::vector<
 }
 
 SceneMaker& SceneMaker::Light(Vec3 position, Rgb intensity_cd) {
-  scene_.point_lights.push_back({"light", position, intensity_cd});
+  scene_.lights.push_back({"light", position, intensity_cd});
   return *this;
 }
 

@@ -79,8 +79,8 @@ void AddCamerasAndLights(const Scene& scene, Json* gltf) {
                                 {"matrix", ToMatrix(camera.world)},
                                 {"camera", (*gltf)["cameras"].size() - 1}});
   }
-  for (const PointLight& light : scene.point_lights) {
-    const Rgb i = light.intensity_cd;
+  for (const Light& light : scene.lights) {
+    const Rgb i = light.strength;
     const double brightest = std::max({i.r, i.g, i.b});
     Json& lights = (*gltf)["extensions"]["KHR_lights_punctual"]["lights"];
     lights.push_back(

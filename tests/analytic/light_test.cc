@@ -1,0 +1,127 @@
+// Lights without a surface over a floor: what arrives at each patch is an integral of a closed
+// form.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "radiosity/patch/light.h"
+#include "tests/analytic/seeds.h"
+#include "tests/support/scenes.h"
+
+namespace lambert {
+namespace {
+
+constexpr int kDepth = 7;
+
+// Mean of a function over a triangle, by its centroids after seven halvings of the edges.
+double MeanOver(const std::array<Vec3, 3>& t, const std::function<double(Vec3)>& f,
+                int depth = kDepth) {
+  if (depth == 0) return f((t[0] + t[1] + t[2]) / 3);
+  const Vec3 a = (t[0] + t[1]) / 2, b = (t[1] + t[2]) / 2, c = (t[2] + t[0]) / 2;
+  return (MeanOver({t[0], a, c}, f, depth - 1) + MeanOver({a, t[1], b}, f, depth - 1) +
+          MeanOver({c, b, t[2]}, f, depth - 1) + MeanOver({a, b, c}, f, depth - 1)) /
+         4;
+}
+
+// A floor of 2 m by 2 m at height 0 that faces up, in eight patches.
+SceneMaker Floor() {
+  return SceneMaker().Quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, {{0.5, 0.5, 0.5}, {}}, 2);
+}
+
+// The illuminance at a point of the floor, world metres, in closed form.
+using Closed = std::function<double(Vec3)>;
+
+void ExpectIlluminance(const Scene& scene, const Closed& lux) {
+  const PatchSet patches = PatchesOf(scene);
+  std::vector<Truth> truths;
+  double most = 0;
+  std::vector<double> means;
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    means.push_back(MeanOver(patches.corners[i], [&](Vec3 p) { return lux(p + patches.origin); }));
+    most = std::max(most, means.back());
+  }
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    if (means[i] < most / 20) continue;  // too few rays to be sure of
+    truths.push_back({"a patch of the floor", means[i],
+                      [i](const Solution& s) { return s.irradiance_lx[i].r; }});
+  }
+  for (Method method : {Method::kPmcr, Method::kPhs}) {
+    ExpectTruths(patches, WithRays(method, 200000), truths);
+  }
+  const Solution exact = SolveSeeds(patches, WithRays(Method::kExact, 200000), 1)[0];
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    EXPECT_NEAR(exact.irradiance_lx[i].r, means[i], 2e-4 * most) << i;
+  }
+}
+
+Scene WithLight(const Light& light) {
+  Scene scene = Floor().Make();
+  scene.lights.push_back(light);
+  return scene;
+}
+
+// E = I cos / r2 = I h / r3
+TEST(LightsOverAFloor, APointLight) {
+  ExpectIlluminance(WithLight({"", {0.2, 1, 0.1}, {100, 50, 20}}), [](Vec3 p) {
+    const double r = Length(Vec3{0.2, 1, 0.1} - p);
+    return 100 / (r * r * r);
+  });
+}
+
+// The same times ((cos - cos_outer) / (cos_inner - cos_outer))^2 in the rim.
+TEST(LightsOverAFloor, ASpotStraightDown) {
+  Light light{"", {0, 1, 0}, {100, 50, 20}};
+  light.x = {1, 0, 0};
+  light.y = {0, 0, 1};
+  light.z = {0, -1, 0};
+  light.cos_inner = 0.9;
+  light.cos_outer = 0.6;
+  ExpectIlluminance(WithLight(light), [](Vec3 p) {
+    const double r = Length(Vec3{0, 1, 0} - p), cosine = 1 / r;
+    const double part = std::clamp((cosine - 0.6) / 0.3, 0.0, 1.0);
+    return 100 * part * part / (r * r * r);
+  });
+}
+
+TEST(LightsOverAFloor, ASpotAskew) {
+  Light light{"", {-0.5, 1, 0}, {100, 50, 20}};
+  light.x = {0, 0, 1};
+  light.y = {0.8, 0.6, 0};
+  light.z = {0.6, -0.8, 0};
+  light.cos_inner = 0.95;
+  light.cos_outer = 0.7;
+  ExpectIlluminance(WithLight(light), [](Vec3 p) {
+    const Vec3 way = p - Vec3{-0.5, 1, 0};
+    const double r = Length(way), cosine = Dot(way, {0.6, -0.8, 0}) / r;
+    const double part = std::clamp((cosine - 0.7) / 0.25, 0.0, 1.0);
+    return 100 * part * part / (r * r * r);
+  });
+}
+
+// E cos theta
+TEST(LightsOverAFloor, ADistantLight) {
+  Light light{"", {}, {100, 50, 20}, Light::Kind::kDistant};
+  light.z = {0.6, -0.8, 0};
+  ExpectIlluminance(WithLight(light), [](Vec3) { return 80; });
+}
+
+// What a box hides of the floor is dark, and what enters the box around the scene and meets nothing
+// escapes: the ledger says so.
+TEST(LightsOverAFloor, ADistantLightCastsAShadow) {
+  Scene scene = Floor().Quad({-1, 1, -1}, {0, 0, 2}, {1, 0, 0}, {{}, {}, true}).Make();
+  Light light{"", {}, {100, 100, 100}, Light::Kind::kDistant};
+  light.z = {0, -1, 0};
+  scene.lights.push_back(light);
+  const PatchSet patches = PatchesOf(scene);
+  const Solution solution = SolveSeeds(patches, WithRays(Method::kPmcr, 200000), 1)[0];
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    if (patches.source[i].node != 0) continue;
+    const bool dark = PatchCentroid(patches, i).x + patches.origin.x < 0;
+    EXPECT_NEAR(solution.irradiance_lx[i].r, dark ? 0 : 100, dark ? 0.5 : 5) << i;
+  }
+  EXPECT_NEAR(solution.ledger.emitted.r, 400, 1e-9);
+}
+
+}  // namespace
+}  // namespace lambert
