@@ -1,4 +1,8 @@
 // The `lambert` command.
+#include <malloc.h>
+#include <pthread.h>
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -60,6 +64,20 @@ ExitCode FlushResults(ExitCode code) {
   return code == ExitCode::kDone ? ReportError(lost, false) : code;
 }
 
+// Where addresses are limited (ulimit -v), threads take as few of them as will do: glibc sets aside
+// 8 MiB for each one's stack and 64 MiB for its heap, whatever is used of them.
+void SaveAddresses() {
+  constexpr size_t kStackBytes = 1 << 20;
+  rlimit limit;
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+  mallopt(M_ARENA_MAX, 2);
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, kStackBytes);
+  pthread_setattr_default_np(&attributes);
+  pthread_attr_destroy(&attributes);
+}
+
 ExitCode Main(const std::vector<std::string>& arguments) {
   // Errors of the command line itself have to know this before it is understood.
   bool json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
@@ -83,6 +101,7 @@ ExitCode Main(const std::vector<std::string>& arguments) {
 int main(int argc, char** argv) {
   // A reader of our output that goes away is an error like any other, not a death.
   std::signal(SIGPIPE, SIG_IGN);
+  lambert::app::SaveAddresses();
   try {
     return static_cast<int>(lambert::app::Main({argv + 1, argv + argc}));
   } catch (const std::exception& error) {

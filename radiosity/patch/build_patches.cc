@@ -15,6 +15,9 @@
 namespace lambert {
 namespace {
 
+// Squares of lengths have to fit into the float32 of the tracer, with room for their sums.
+constexpr double kMostExtent_m = 1e18;
+
 // What is known of a scene before any patch is made.
 struct Survey {
   Vec3 origin;  // centre of the bounding box of all triangles
@@ -43,7 +46,12 @@ absl::StatusOr<Survey> SurveyScene(const Scene& scene, const PatchOptions& optio
   if (survey.pieces > static_cast<double>(options.max_patches)) {
     return TooManyPatches(options.max_patches);
   }
-  if (survey.triangles > 0) survey.origin = bounds.low / 2 + bounds.high / 2;
+  if (survey.triangles == 0) return survey;
+  if (!(Length(bounds.high - bounds.low) <= kMostExtent_m)) {
+    return SceneError("scene", absl::StrCat("it is larger than ", kMostExtent_m, " m"),
+                      "check its positions and transforms, or scale it down");
+  }
+  survey.origin = bounds.low / 2 + bounds.high / 2;
   return survey;
 }
 

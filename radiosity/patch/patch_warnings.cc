@@ -1,6 +1,7 @@
 #include "radiosity/patch/patch_warnings.h"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -15,6 +16,10 @@ constexpr double kHighReflectance = 0.95;  // white paint reflects .85, fresh sn
 // Area vectors of a closed surface sum to zero, up to the float32 digits of the file.
 constexpr double kClosedTolerance = 1e-5;
 
+// Brighter than the sun six times over: a unit or an exponent is wrong, and what others emit drowns
+// in its noise.
+constexpr double kHighLuminanceNit = 1e10;
+
 // A light this near to a patch lies on it; as a share of the scene's diagonal: the tracer's
 // offsets are about as large.
 constexpr double kOnSurface = 1e-6;
@@ -25,6 +30,14 @@ int64_t CountHighReflectance(const PatchSet& patches) {
     if (std::max({rho.r, rho.g, rho.b}) > kHighReflectance) ++count;
   }
   return count;
+}
+
+int64_t CountHighEmission(const PatchSet& patches) {
+  const auto is_high = [](const Rgb& exitance) {
+    return std::max({exitance.r, exitance.g, exitance.b}) > kHighLuminanceNit * std::numbers::pi;
+  };
+  return std::count_if(patches.exitance_lm_per_m2.begin(), patches.exitance_lm_per_m2.end(),
+                       is_high);
 }
 
 // Divergence theorem: six times the volume inside a closed surface is the sum of a . (b x c) over
@@ -122,6 +135,12 @@ void AppendPatchWarnings(PatchSet* patches) {
   if (EmittedFlux(*patches) == Rgb{}) {
     patches->warnings.push_back(
         {"NO_EMITTERS", "nothing in the scene emits light: the solution is zero everywhere"});
+  }
+  if (const int64_t count = CountHighEmission(*patches); count > 0) {
+    patches->warnings.push_back(
+        {"EMISSION_HIGH", absl::StrCat(count,
+                                       " patch(es) are brighter than 1e10 nit, more than the sun: "
+                                       "check the unit of emission")});
   }
   if (const int64_t count = CountHighReflectance(*patches); count > 0) {
     patches->warnings.push_back(

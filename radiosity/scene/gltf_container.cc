@@ -13,7 +13,8 @@
 namespace lambert {
 namespace {
 
-constexpr uint32_t kJsonChunk = 0x4e4f534a;  // "JSON"
+constexpr uint32_t kJsonChunk = 0x4e4f534a;    // "JSON"
+constexpr uint32_t kBinaryChunk = 0x004e4942;  // "BIN"
 constexpr size_t kGlbHeaderBytes = 12, kChunkHeaderBytes = 8;
 
 // glTF itself nests 8 deep; extensions and extras add a few.
@@ -48,6 +49,25 @@ absl::StatusOr<absl::string_view> FindGlbJson(const std::string& bytes) {
     return GlbError("its JSON chunk runs past its end");
   }
   return absl::string_view(bytes).substr(kGlbHeaderBytes + kChunkHeaderBytes, json);
+}
+
+// The chunks after the first, which FindGlbJson has checked.
+absl::Status CheckChunks(const std::string& bytes, bool* is_aligned) {
+  const uint64_t length = ReadU32(bytes, 8);
+  bool has_binary = false;
+  uint64_t at = kGlbHeaderBytes;
+  while (at + kChunkHeaderBytes <= length) {
+    const uint64_t size = ReadU32(bytes, at);
+    const uint32_t type = ReadU32(bytes, at + 4);
+    if (size > length - at - kChunkHeaderBytes) return GlbError("a chunk runs past its end");
+    if ((type == kJsonChunk && at > kGlbHeaderBytes) || (type == kBinaryChunk && has_binary)) {
+      return GlbError("it has two chunks of one type");
+    }
+    has_binary |= type == kBinaryChunk;
+    if (size % 4 != 0) *is_aligned = false;
+    at += kChunkHeaderBytes + size;
+  }
+  return at == length ? absl::OkStatus() : GlbError("its last chunk has no whole header");
 }
 
 // Depth of nesting in JSON text, valid or not; counting ends above the limit.
@@ -89,6 +109,23 @@ absl::StatusOr<absl::string_view> FindJsonText(const std::string& bytes) {
                       "remove the deep extras or extensions");
   }
   return text;
+}
+
+absl::StatusOr<std::vector<Warning>> CheckContainer(const std::string& bytes) {
+  std::vector<Warning> warnings;
+  if (!IsGlb(bytes)) return warnings;
+  bool is_aligned = true;
+  absl::Status status = CheckChunks(bytes, &is_aligned);
+  if (!status.ok()) return status;
+  if (!is_aligned) {
+    warnings.push_back({"GLB_CHUNK_ALIGNMENT", "a chunk's length is no multiple of 4"});
+  }
+  if (const uint64_t length = ReadU32(bytes, 8); length < bytes.size()) {
+    warnings.push_back(
+        {"GLB_TRAILING_DATA",
+         absl::StrCat(bytes.size() - length, " bytes after its end were passed over")});
+  }
+  return warnings;
 }
 
 std::string DecodeUri(const std::string& uri) {

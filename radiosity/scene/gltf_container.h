@@ -2,9 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
+#include "radiosity/core/warning.h"
 
 namespace lambert {
 
@@ -15,6 +17,11 @@ bool IsGlb(const std::string& bytes);
 // GLB. SceneError for a GLB of another version or whose lengths lie, and for text nested so deep
 // that a recursive parser could not follow.
 absl::StatusOr<absl::string_view> FindJsonText(const std::string& bytes);
+
+// Checks the chunks of a GLB: SceneError where one runs past the end or there are two of one type.
+// Warns of chunks that are not aligned (GLB_CHUNK_ALIGNMENT) and of bytes after the end
+// (GLB_TRAILING_DATA). Requires: FindJsonText(bytes) is OK.
+absl::StatusOr<std::vector<Warning>> CheckContainer(const std::string& bytes);
 
 // A URI with its %xx sequences decoded.
 std::string DecodeUri(const std::string& uri);

@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "radiosity/core/error.h"
 #include "radiosity/scene/gltf_amend.h"
+#include "radiosity/scene/gltf_check.h"
 #include "radiosity/scene/gltf_container.h"
 #include "radiosity/scene/gltf_extensions.h"
 #include "radiosity/scene/gltf_image.h"
@@ -173,6 +174,10 @@ absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& li
   if (!status.ok()) return status;
   absl::StatusOr<absl::string_view> text = FindJsonText(bundle.main_bytes);
   if (!text.ok()) return text.status();
+  absl::StatusOr<std::vector<Warning>> warnings = CheckContainer(bundle.main_bytes);
+  if (!warnings.ok()) return warnings.status();
+  status = CheckGltf(*text, &*warnings);
+  if (!status.ok()) return status;
   absl::StatusOr<tinygltf::Model> model = ParseModel(bundle);
   if (!model.ok()) return model.status();
   Scene scene;
@@ -189,7 +194,8 @@ absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& li
   status = MeshReader(*model, limits, worlds, &scene, &unread).Read();
   if (!status.ok()) return status;
   if (!model->animations.empty()) unread.Add("animations", "file", "shown at rest");
-  scene.warnings = unread.Warnings();
+  scene.warnings = *std::move(warnings);
+  for (Warning& warning : unread.Warnings()) scene.warnings.push_back(std::move(warning));
   AppendVertexWarnings(&scene);
   return scene;
 }

@@ -1,6 +1,7 @@
 #include "tests/scene/gltf_document.h"
 
 #include <cstring>
+#include <set>
 
 namespace lambert {
 namespace {
@@ -57,6 +58,15 @@ std::string Stored(const std::string& data) {
   return zlib;
 }
 
+// Adds the names of all extensions in `value` and below to `used`.
+void FindExtensions(const nlohmann::json& value, std::set<std::string>* used) {
+  if (value.is_object() && value.contains("extensions")) {
+    for (const auto& [name, content] : value["extensions"].items()) used->insert(name);
+  }
+  if (!value.is_structured()) return;
+  for (const nlohmann::json& part : value) FindExtensions(part, used);
+}
+
 }  // namespace
 
 GltfDocument::GltfDocument() {
@@ -96,8 +106,12 @@ int GltfDocument::AddTexture(const std::string& image_bytes) {
 }
 
 std::string GltfDocument::Glb() const {
+  nlohmann::json declared = json;
+  std::set<std::string> used = json.value("extensionsUsed", std::set<std::string>());
+  FindExtensions(json, &used);
+  if (!used.empty()) declared["extensionsUsed"] = used;
   std::string body;
-  AppendChunk("JSON", json.dump(), ' ', &body);
+  AppendChunk("JSON", declared.dump(), ' ', &body);
   AppendChunk("BIN\0", binary_, '\0', &body);
   std::string glb = "glTF";
   AppendU32(2, &glb);

@@ -42,6 +42,7 @@ class GltfDocument {
   // Adds the image, a texture of it and TEXCOORD_0 over the triangle; returns the texture's index.
   int AddTexture(const std::string& image_bytes);
 
+  // With all extensions that the JSON holds in extensionsUsed.
   std::string Glb() const;
   absl::StatusOr<Scene> Load(const SceneLimits& limits = {}) const;
 

@@ -27,7 +27,9 @@ nlohmann::json Transformed(int texture, const nlohmann::json& transform) {
 
 TEST(TextureTransform, MovesScalesThenTurnsAsTheSpecSays) {
   GltfDocument document;
-  document.json["extensionsRequired"] = {"KHR_texture_transform"};
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    document.json[list] = {"KHR_texture_transform"};
+  }
   const int texture = document.AddTexture(MakePng(1, 1, std::string(4, '\x7f')));
   const TextureUse plain = UseOf(document, {{"index", texture}});
   EXPECT_EQ(plain.row_u, (Row{1, 0, 0}));

@@ -119,7 +119,9 @@ TEST(MorphTargets, ThatLieOrMoveTooMuchAreRefused) {
   document.Primitive()["targets"][1]["POSITION"] =
       document.AddAccessor<float>({0, 0, 0}, kFloat, "VEC3", 1);
   EXPECT_EQ(ReasonOf(document.Load().status()), "SCENE_INVALID");
-  document.Primitive()["targets"][1] = {{"TEXCOORD_0", 0}};
+  const int uv = document.AddAccessor<float>(std::vector<float>(6), kFloat, "VEC2", 3);
+  document.Primitive()["attributes"]["TEXCOORD_0"] = uv;
+  document.Primitive()["targets"][1] = {{"TEXCOORD_0", uv}};
   EXPECT_EQ(document.Load()->warnings.size(), 1u);
 }
 
