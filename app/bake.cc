@@ -75,7 +75,7 @@ absl::StatusOr<ExitCode> Bake::Run() {
 }
 
 absl::Status Bake::Prepare() {
-  auto bundle = ReadSceneBundle(options_.scene_path);
+  auto bundle = ReadSceneBundle(options_.scene_path, options_.limits.bytes);
   if (!bundle.ok()) return bundle.status();
   bundle_ = *std::move(bundle);
   if (absl::Status status = TestOutputFolder(options_.out_folder); !status.ok()) return status;

@@ -95,10 +95,10 @@ absl::StatusOr<BenchResult> Bench::Run(const std::string& scene_path, const std:
 absl::Status Bench::Prepare(const std::string& scene_path, const std::string& folder) {
   result_.name = SceneStem(scene_path);
   result_.folder = folder;
-  auto bundle = ReadSceneBundle(scene_path);
+  auto bundle = ReadSceneBundle(scene_path, options_.limits.bytes);
   if (!bundle.ok()) return bundle.status();
   if (absl::Status status = TestOutputFolder(folder); !status.ok()) return status;
-  auto loaded = LoadGltf(*bundle);
+  auto loaded = LoadGltf(*bundle, options_.limits);
   if (!loaded.ok()) return loaded.status();
   auto patches = BuildPatches(*loaded, options_.patch);
   if (!patches.ok()) return patches.status();

@@ -280,7 +280,7 @@ std::vector<std::string> Parser::Warnings() const {
   WarnOfEffectless(SettingsWithoutEffect(method),
                    fmt::format("with --method {}", MethodName(method)), warnings);
   if (!options.server.empty()) {
-    WarnOfEffectless({"workers", "threads"},
+    WarnOfEffectless(OptionsOfThisProcess(),
                      "with --server: work is done by the lambert-workers that serve it", warnings);
   } else {
     std::vector<std::string> of_servers = {"reconnect"};

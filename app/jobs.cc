@@ -43,7 +43,7 @@ absl::StatusOr<RunRecord> CollectLatest(client::Client& client, const std::strin
 }  // namespace
 
 absl::StatusOr<ExitCode> RunSubmit(const Options& options, Interrupt& interrupt) {
-  auto bundle = ReadSceneBundle(options.scene_path);
+  auto bundle = ReadSceneBundle(options.scene_path, options.limits.bytes);
   if (!bundle.ok()) return bundle.status();
   auto connection = Connection::Open(options, interrupt);
   if (!connection.ok()) return connection.status();

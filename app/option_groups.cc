@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include "app/bench_list.h"
 #include "app/option_checks.h"
@@ -13,6 +14,7 @@ namespace lambert::app {
 namespace {
 
 constexpr char kScene[] = "Scene";
+constexpr char kLimits[] = "Limits: what a scene may take at most";
 constexpr char kStop[] = "When it is good enough (none given: an error of 3 %)";
 constexpr char kMethod[] = "Method";
 constexpr char kPyramids[] = "Pyramids of the methods phs, hs and importance";
@@ -51,7 +53,32 @@ void AddSetting(CLI::App& command, const ShootSetting& setting, ShootOptions& sh
   option->check(Check([&setting](std::string& text) { return CheckSetting(setting, text); }));
 }
 
+// What a scene may take at most.
+void AddLimitOptions(CLI::App& command, Draft& draft) {
+  SceneLimits& limits = draft.options.limits;
+  const auto add = [&command](const char* name, int64_t& limit, int64_t most, const char* help) {
+    command.add_option(name, limit, fmt::format("{} ({})", help, limit))
+        ->option_text("N")
+        ->transform(CountFrom(1, most))
+        ->group(kLimits);
+  };
+  add("--max-scene-bytes", limits.bytes, kAnyCount, "of all its files");
+  add("--max-triangles", limits.triangles, kAnyCount, "with instances");
+  add("--max-instances", limits.instances, kAnyCount, "of meshes");
+  add("--max-image-pixels", limits.image_pixels, kAnyCount, "of one image, by its header");
+  add("--max-total-pixels", limits.total_pixels, kAnyCount, "of all images that are decoded");
+  add("--max-patches", draft.options.patch.max_patches, std::numeric_limits<PatchIndex>::max(),
+      "after splitting");
+}
+
 }  // namespace
+
+const std::vector<std::string>& OptionsOfThisProcess() {
+  static const auto& names =
+      *new std::vector<std::string>{"workers",       "threads",          "max-triangles",
+                                    "max-instances", "max-image-pixels", "max-total-pixels"};
+  return names;
+}
 
 double QualityError(const std::string& quality) {
   return quality == "preview" ? 0.1 : quality == "draft" ? 0.03 : 0.01;
@@ -83,6 +110,7 @@ void AddSceneOptions(CLI::App& command, Draft& draft) {
       ->option_text("UNIT")
       ->check(OneOf({"nit", "W/m2/sr"}))
       ->group(kScene);
+  AddLimitOptions(command, draft);
 }
 
 void AddStopOptions(CLI::App& command, Draft& draft) {

@@ -16,7 +16,7 @@ struct Draft {
   std::string quality;  // "" or preview, draft, final: a wanted error by name
 };
 
-void AddSceneOptions(CLI::App& command, Draft& draft);    // SCENE, --max-edge, ...
+void AddSceneOptions(CLI::App& command, Draft& draft);    // SCENE, --max-edge, limits, ...
 void AddStopOptions(CLI::App& command, Draft& draft);     // --max-error, --quality, ...
 void AddMethodOptions(CLI::App& command, Draft& draft);   // --method, --seed, --phs-...
 void AddPlaceOptions(CLI::App& command, Draft& draft);    // --workers, --threads
@@ -29,6 +29,9 @@ void AddJsonOption(CLI::App& command, Draft& draft);      // --json
 
 // SCENE... and what bake has and bench does not take away; --methods, --seeds, --budgets, ...
 void AddBenchOptions(CLI::App& command, Draft& draft);
+
+// Names, without dashes, of options that decide nothing where a server does the work.
+const std::vector<std::string>& OptionsOfThisProcess();
 
 // The wanted error that a --quality stands for. Requires: one of preview, draft, final.
 double QualityError(const std::string& quality);

@@ -8,6 +8,7 @@
 #include "net/credentials.h"
 #include "radiosity/output/write_outputs.h"
 #include "radiosity/patch/build_patches.h"
+#include "radiosity/scene/load_gltf.h"
 #include "radiosity/solve/options.h"
 
 namespace lambert::app {
@@ -57,6 +58,7 @@ struct Options {
   std::string compare_reference;  // compare: the table that it is judged by
 
   PatchOptions patch;
+  SceneLimits limits;  // of what is read here; a server has its own
   SolveOptions solve;
   BenchOptions bench;
 

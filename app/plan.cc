@@ -28,7 +28,7 @@ absl::Status CheckReference(const PatchSet& patches, const Options& options) {
 }
 
 absl::StatusOr<PatchSet> BuildHere(const SceneBundle& bundle, const Options& options) {
-  auto scene = LoadGltf(bundle);
+  auto scene = LoadGltf(bundle, options.limits);
   if (!scene.ok()) return scene.status();
   return BuildPatches(*scene, options.patch);
 }
@@ -123,7 +123,7 @@ absl::StatusOr<client::PlannedScene> MakePlanned(const SceneBundle& bundle, cons
 }  // namespace
 
 absl::StatusOr<ExitCode> RunPlan(const Options& options, Interrupt& interrupt) {
-  auto bundle = ReadSceneBundle(options.scene_path);
+  auto bundle = ReadSceneBundle(options.scene_path, options.limits.bytes);
   if (!bundle.ok()) return bundle.status();
   auto planned = MakePlanned(*bundle, options, interrupt);
   if (!planned.ok()) return planned.status();

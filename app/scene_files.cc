@@ -19,9 +19,9 @@ absl::Status Missing(const fs::path& path, const std::string& message, const std
                    {"SCENE_FILE_MISSING", path.string(), message, hint});
 }
 
-// Reads a file and takes its size off `budget_bytes`.
+// Reads a file and takes its size off `budget_bytes`, which are left of `max_bytes`.
 absl::StatusOr<std::string> ReadSceneFile(const fs::path& path, const std::string& hint,
-                                          int64_t& budget_bytes) {
+                                          int64_t max_bytes, int64_t& budget_bytes) {
   std::error_code error;
   if (fs::is_directory(path, error)) return Missing(path, "this is a folder", hint);
   errno = 0;
@@ -29,10 +29,11 @@ absl::StatusOr<std::string> ReadSceneFile(const fs::path& path, const std::strin
   if (!file) return Missing(path, std::strerror(errno != 0 ? errno : ENOENT), hint);
   const auto size = static_cast<int64_t>(file.tellg());
   if (size > budget_bytes) {
-    return MakeError(absl::StatusCode::kResourceExhausted,
-                     {"SCENE_TOO_LARGE", path.string(),
-                      "with this file the scene has more than " + FormatBytes(SceneLimits().bytes),
-                      "split the scene, or make its textures smaller"});
+    return MakeError(
+        absl::StatusCode::kResourceExhausted,
+        {"SCENE_TOO_LARGE", path.string(),
+         "with this file the scene has more than " + FormatBytes(static_cast<double>(max_bytes)),
+         "split the scene, make its textures smaller, or raise --max-scene-bytes"});
   }
   std::string bytes(static_cast<size_t>(std::max<int64_t>(size, 0)), '\0');
   file.seekg(0);
@@ -49,11 +50,11 @@ bool StaysInFolder(const std::string& uri) {
 
 }  // namespace
 
-absl::StatusOr<SceneBundle> ReadSceneBundle(const std::string& path) {
-  int64_t budget_bytes = SceneLimits().bytes;
+absl::StatusOr<SceneBundle> ReadSceneBundle(const std::string& path, int64_t max_bytes) {
+  int64_t budget_bytes = max_bytes;
   SceneBundle bundle;
   bundle.main_name = fs::path(path).filename().string();
-  auto main = ReadSceneFile(path, "give the path of a .glb or .gltf file", budget_bytes);
+  auto main = ReadSceneFile(path, "give the path of a .glb or .gltf file", max_bytes, budget_bytes);
   if (!main.ok()) return main.status();
   bundle.main_bytes = *std::move(main);
 
@@ -64,8 +65,9 @@ absl::StatusOr<SceneBundle> ReadSceneBundle(const std::string& path) {
       return SceneError(bundle.main_name, "names '" + name + "', which is not in its folder",
                         "export the scene as one .glb, or put the file beside it");
     }
-    auto bytes = ReadSceneFile(fs::path(path).parent_path() / name,
-                               bundle.main_name + " names this file: put it there", budget_bytes);
+    auto bytes =
+        ReadSceneFile(fs::path(path).parent_path() / name,
+                      bundle.main_name + " names this file: put it there", max_bytes, budget_bytes);
     if (!bytes.ok()) return bytes.status();
     bundle.files[name] = *std::move(bytes);
   }

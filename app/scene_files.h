@@ -10,8 +10,9 @@ namespace lambert::app {
 
 // Reads a .glb or .gltf file and the files that it names, which have to lie in its folder or under
 // it. SCENE_FILE_MISSING names the file that cannot be read; SCENE_INVALID, one outside the folder;
-// SCENE_TOO_LARGE, more bytes than SceneLimits allows.
-absl::StatusOr<SceneBundle> ReadSceneBundle(const std::string& path);
+// SCENE_TOO_LARGE, more than `max_bytes`.
+absl::StatusOr<SceneBundle> ReadSceneBundle(const std::string& path,
+                                            int64_t max_bytes = SceneLimits().bytes);
 
 // "rooms/office.glb" -> "office": names the files of a result.
 std::string SceneStem(const std::string& path);

@@ -28,8 +28,10 @@ absl::StatusOr<Service> OpenService(const Options& options,
   client_options.on_notice = std::move(on_notice);
   std::shared_ptr<grpc::Channel> channel;
   if (options.server.empty()) {
-    auto local = LocalService::Start(
-        {.workers = options.workers, .threads_per_worker = ThreadsPerWorker(options)});
+    auto local = LocalService::Start({.workers = options.workers,
+                                      .threads_per_worker = ThreadsPerWorker(options),
+                                      .limits = options.limits,
+                                      .max_patches = options.patch.max_patches});
     if (!local.ok()) return local.status();
     service.local = *std::move(local);
     channel = service.local->channel();

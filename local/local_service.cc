@@ -47,8 +47,11 @@ class LocalServiceImpl : public LocalService {
 
 absl::StatusOr<std::unique_ptr<LocalService>> LocalService::Start(
     const LocalServiceOptions& options) {
+  server::CoordinatorOptions limited;
+  limited.scene = options.limits;
+  limited.max_patches = options.max_patches;
   absl::StatusOr<std::unique_ptr<server::Coordinator>> coordinator =
-      server::Coordinator::Start(server::CoordinatorOptions());
+      server::Coordinator::Start(limited);
   if (!coordinator.ok()) return coordinator.status();
   absl::StatusOr<std::unique_ptr<server::RpcServer>> rpc =
       server::RpcServer::Start(coordinator->get(), "");

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "absl/status/statusor.h"
+#include "radiosity/patch/build_patches.h"
+#include "radiosity/scene/load_gltf.h"
 
 namespace grpc {
 class Channel;
@@ -14,6 +16,8 @@ namespace lambert {
 struct LocalServiceOptions {
   int workers = 1;             // > 0
   int threads_per_worker = 1;  // > 0: units that one worker runs at once
+  SceneLimits limits = {};
+  int64_t max_patches = PatchOptions().max_patches;  // of a job
 };
 
 // The same server and worker code that `lambert-server` and `lambert-worker` run, joined by gRPC's

@@ -32,6 +32,9 @@ void AddLimitOptions(CLI::App& app, CoordinatorOptions& options) {
         ->group("Limits");
   };
   add("--max-scene-bytes", options.scene.bytes, "of all files of a scene");
+  add("--max-triangles", options.scene.triangles, "of a scene, with instances");
+  add("--max-instances", options.scene.instances, "of meshes in a scene");
+  add("--max-total-pixels", options.scene.total_pixels, "of all images of a scene");
   add("--max-image-pixels", options.scene.image_pixels, "of one image of a scene");
   add("--max-patches", options.max_patches, "of a job");
   add("--client-jobs", options.quotas.jobs, "of a client, not ended; 0: no limit, here and below");

@@ -55,6 +55,14 @@ TEST_F(BadInput, ASceneWithoutTrianglesEndsWith3) {
   Fail(3, {"plan", "bare.gltf"});
 }
 
+TEST_F(BadInput, LimitsAreOptions) {
+  for (const char* limit : {"--max-scene-bytes", "--max-triangles", "--max-patches"}) {
+    EXPECT_TRUE(Says(Fail(3, {"plan", "room.glb", limit, "3"}), "more")) << limit;
+    Fail(3, {"bake", "room.glb", limit, "3", "-o", "out", "--progress", "none"});
+  }
+  Fail(2, {"plan", "room.glb", "--max-image-pixels", "0"});
+}
+
 TEST_F(BadInput, AFileThatTheSceneNamesAndThatIsNotThereEndsWith3) {
   Write("parts.gltf",
         R"({"asset":{"version":"2.0"},"buffers":[{"uri":"parts.bin","byteLength":12}]})");
