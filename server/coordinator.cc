@@ -38,7 +38,7 @@ Coordinator::Coordinator(const CoordinatorOptions& options, Stores stores)
       records_(std::move(stores.records)),
       refs_(blobs_.get(), options.uploads.idle, options.clock),
       uploads_(blobs_.get(), options.uploads, options.clock),
-      quotas_(options.quotas, options.day),
+      quotas_(options.quotas, options.day, records_.get()),
       scenes_(blobs_.get(), &refs_, records_.get(), options.scene),
       jobs_(&refs_, records_.get(), &quotas_, options.max_waiting_jobs),
       holdings_(blobs_.get(), &refs_, &uploads_, &scenes_, &jobs_, &quotas_, &work_),
@@ -62,6 +62,7 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::Start(const Coordinato
 }
 
 absl::Status Coordinator::Restore() {
+  if (absl::Status restored = quotas_.Restore(); !restored.ok()) return restored;
   if (absl::Status restored = scenes_.Restore(); !restored.ok()) return restored;
   absl::StatusOr<std::vector<std::shared_ptr<Job>>> unfinished = jobs_.Restore();
   if (!unfinished.ok()) return unfinished.status();
@@ -90,6 +91,7 @@ void Coordinator::AdoptOrphans() {
 Coordinator::~Coordinator() {
   Shutdown();
   scheduler_.reset();
+  quotas_.Save().IgnoreError();  // a full disk tells of itself where jobs are kept
   if (housekeeper_.joinable()) housekeeper_.join();
 }
 
@@ -107,6 +109,7 @@ void Coordinator::KeepHouse() {
     if (now - checked >= kCheckOwner) {
       checked = now;
       if (!OwnsStores()) return;
+      quotas_.Save().IgnoreError();  // tried again in a second
     }
     if (now - repeated >= kRepeatProgress) {
       repeated = now;

@@ -9,6 +9,8 @@ void AddDoorOptions(CLI::App& app, DoorOptions& doors, NewToken& wanted) {
   app.add_option("--tls-key", doors.tls_key, "PEM file of that certificate's key");
   app.add_option("--tls-client-ca", doors.tls_client_ca,
                  "PEM file of who signs certificates of clients and workers");
+  app.add_option("--tls-revoked", doors.tls_revoked,
+                 "file of fingerprints of those certificates that are taken back");
   CLI::Option* tokens =
       app.add_option("--tokens", doors.tokens, "file of who may come with which token");
   app.add_flag("--insecure", doors.insecure,

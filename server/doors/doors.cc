@@ -29,6 +29,11 @@ absl::Status Unauthenticated(const std::string& reason, const std::string& what,
   return MakeError(absl::StatusCode::kUnauthenticated, {reason, "the caller", what, hint});
 }
 
+absl::Status NoCertificatesToRevoke() {
+  return Invalid("tls-revoked", "no certificates are taken that could be taken back",
+                 "give --tls-client-ca too");
+}
+
 absl::Status CheckAddress(const DoorOptions& options, const std::string& listen) {
   if (options.insecure || listen.empty() || IsLoopback(listen)) return absl::OkStatus();
   const char* what = nullptr;
@@ -90,6 +95,7 @@ absl::Status Doors::OpenTls(const DoorOptions& options) {
       return Invalid("tls-client-ca", "certificates are only shown where the server has one",
                      "give --tls-cert and --tls-key too");
     }
+    if (!options.tls_revoked.empty()) return NoCertificatesToRevoke();
     credentials_ = grpc::InsecureServerCredentials();
     return absl::OkStatus();
   }
@@ -111,9 +117,24 @@ absl::Status Doors::OpenTls(const DoorOptions& options) {
     if (!ca.ok()) return ca.status();
     ssl.pem_root_certs = *std::move(ca);
     takes_certificates_ = true;
+  } else if (!options.tls_revoked.empty()) {
+    return NoCertificatesToRevoke();
+  }
+  if (!options.tls_revoked.empty()) {
+    auto revoked =
+        FollowedFile<Revoked>::Open("tls-revoked", options.tls_revoked, ParseRevoked, options.log);
+    if (!revoked.ok()) return revoked.status();
+    revoked_ = *std::move(revoked);
   }
   credentials_ = grpc::SslServerCredentials(ssl);
   return absl::OkStatus();
+}
+
+bool Doors::IsRevoked(const grpc::AuthContext& auth) const {
+  if (revoked_ == nullptr) return false;
+  const std::vector<grpc::string_ref> pem =
+      auth.FindPropertyValues(GRPC_X509_PEM_CERT_PROPERTY_NAME);
+  return pem.size() != 1 || revoked_->Get()->count(Fingerprint({pem[0].data(), pem[0].size()})) > 0;
 }
 
 absl::StatusOr<Identity> Doors::Identify(const grpc::ServerContextBase& context) const {
@@ -136,7 +157,9 @@ absl::StatusOr<Identity> Doors::Identify(const grpc::ServerContextBase& context)
             : auth->FindPropertyValues(GRPC_PEER_SPIFFE_ID_PROPERTY_NAME);
     Identity identity;
     if (ids.size() == 1 && ParseSpiffeId({ids[0].data(), ids[0].size()}, &identity)) {
-      return identity;
+      if (!IsRevoked(*auth)) return identity;
+      return Unauthenticated("CERTIFICATE_REVOKED", "this certificate was taken back",
+                             "ask who runs the server for a new one");
     }
   }
   return Unauthenticated("TOKEN_MISSING", "the call says not who makes it",

@@ -6,10 +6,13 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "server/doors/followed_file.h"
 #include "server/doors/identity.h"
+#include "server/doors/revoked.h"
 #include "server/doors/token_file.h"
 
 namespace grpc {
+class AuthContext;
 class ServerContextBase;
 class ServerCredentials;
 }  // namespace grpc
@@ -21,6 +24,7 @@ struct DoorOptions {
   std::string tls_cert = {},
               tls_key = {};        // PEM: the server's certificate with its chain, and its key
   std::string tls_client_ca = {};  // PEM: who signs certificates of clients and workers
+  std::string tls_revoked = {};    // which of those are taken back (revoked.h)
   std::string tokens = {};         // token_file.h
   bool insecure = false;           // true: listen anywhere, whoever may come
   std::function<void(const std::string&)> log = [](const std::string&) {};
@@ -39,7 +43,8 @@ class Doors {
                                                      const std::string& listen);
 
   // Who makes a call: whose token it brings or, where it brings none, whose certificate.
-  // UNAUTHENTICATED (TOKEN_MISSING, TOKEN_UNKNOWN), PERMISSION_DENIED (ROLE_DENIED).
+  // UNAUTHENTICATED (TOKEN_MISSING, TOKEN_UNKNOWN, CERTIFICATE_REVOKED), PERMISSION_DENIED
+  // (ROLE_DENIED).
   absl::StatusOr<Identity> Admit(const grpc::ServerContextBase& context, Guests guests) const;
 
   // For the address that is listened on: TLS where there is a certificate.
@@ -50,9 +55,11 @@ class Doors {
   Doors() = default;
   absl::Status OpenTls(const DoorOptions& options);
   absl::StatusOr<Identity> Identify(const grpc::ServerContextBase& context) const;
+  bool IsRevoked(const grpc::AuthContext& auth) const;
 
   std::unique_ptr<TokenFile> tokens_;  // null: none are taken
   bool takes_certificates_ = false;
+  std::unique_ptr<FollowedFile<Revoked>> revoked_;  // null: none is taken back
   std::shared_ptr<grpc::ServerCredentials> credentials_;
 };
 

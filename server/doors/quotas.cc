@@ -2,13 +2,18 @@
 
 #include <chrono>
 #include <utility>
+#include <vector>
 
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "radiosity/core/error.h"
 #include "server/base/status_proto.h"
 
 namespace lambert::server {
 namespace {
+
+constexpr char kKind[] = "quotas";
 
 absl::Status Check(const std::string& owner, const std::string& what, double limit, double used,
                    double more, const std::string& hint) {
@@ -31,8 +36,50 @@ absl::Status LimitExceeded(const std::string& reason, const std::string& where,
   return status;
 }
 
-Quotas::Quotas(const QuotaOptions& options, std::function<int64_t()> day)
-    : options_(options), now_(std::move(day)) {}
+Quotas::Quotas(const QuotaOptions& options, std::function<int64_t()> day, RecordStore* records)
+    : options_(options), now_(std::move(day)), records_(records) {}
+
+// A record is `DAY RAYS MICROSECONDS`.
+absl::Status Quotas::Restore() {
+  absl::StatusOr<std::map<std::string, std::string>> records = records_->LoadAll(kKind);
+  if (!records.ok()) return records.status();
+  absl::MutexLock lock(&mutex_);
+  BeginDay();
+  for (const auto& [owner, text] : *records) {
+    const std::vector<std::string> words = absl::StrSplit(text, ' ');
+    int64_t day = 0, rays = 0, microseconds = 0;
+    if (words.size() != 3 || !absl::SimpleAtoi(words[0], &day) ||
+        !absl::SimpleAtoi(words[1], &rays) || !absl::SimpleAtoi(words[2], &microseconds)) {
+      return DamagedRecord(kKind, owner);
+    }
+    if (day == day_) work_[owner] = {rays, static_cast<double>(microseconds) * 1e-6, true};
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Quotas::Save() {
+  std::vector<RecordChange> changes;
+  {
+    absl::MutexLock lock(&mutex_);
+    for (auto& [owner, work] : work_) {
+      if (owner.empty() || work.is_saved) continue;
+      changes.push_back(
+          {kKind, owner,
+           absl::StrCat(day_, " ", work.rays, " ", static_cast<int64_t>(work.cpu_seconds * 1e6))});
+      work.is_saved = true;
+    }
+  }
+  if (changes.empty()) return absl::OkStatus();
+  absl::Status saved = records_->Commit(changes);
+  if (saved.ok()) return saved;
+  absl::MutexLock lock(&mutex_);
+  for (const RecordChange& change : changes) {
+    if (const auto found = work_.find(change.id); found != work_.end()) {
+      found->second.is_saved = false;
+    }
+  }
+  return saved;
+}
 
 absl::Status Quotas::CheckJobs(const std::string& owner, int64_t used) const {
   return Check(owner, "jobs that have not ended", static_cast<double>(options_.jobs),
@@ -60,8 +107,10 @@ absl::Status Quotas::CheckWork(const std::string& owner) {
 void Quotas::Charge(const std::string& owner, int64_t rays, double cpu_seconds) {
   absl::MutexLock lock(&mutex_);
   BeginDay();
-  work_[owner].rays += rays;
-  work_[owner].cpu_seconds += cpu_seconds;
+  Work& work = work_[owner];
+  work.rays += rays;
+  work.cpu_seconds += cpu_seconds;
+  work.is_saved = false;
 }
 
 absl::Status Quotas::BeginWatch(const std::string& owner) {

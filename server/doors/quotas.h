@@ -8,6 +8,7 @@
 
 #include "absl/status/status.h"
 #include "absl/synchronization/mutex.h"
+#include "server/base/record_store.h"
 
 namespace lambert::server {
 
@@ -16,7 +17,7 @@ namespace lambert::server {
 struct QuotaOptions {
   int64_t jobs = 20;               // that have not ended
   int64_t stored_bytes = 0;        // of uploads, scenes, patch sets and solutions
-  int64_t rays_per_day = 0;        // from midnight to midnight, UTC, and since the server started
+  int64_t rays_per_day = 0;        // from midnight to midnight, UTC
   double cpu_seconds_per_day = 0;  // of workers, likewise
   int64_t watchers = 1000;         // streams of snapshots at once
 };
@@ -30,7 +31,12 @@ absl::Status LimitExceeded(const std::string& reason, const std::string& where,
 class Quotas {
  public:
   // `day` counts days; it may only grow.
-  Quotas(const QuotaOptions& options, std::function<int64_t()> day);
+  Quotas(const QuotaOptions& options, std::function<int64_t()> day, RecordStore* records);
+
+  // Finds what was used today before a restart. RECORD_CORRUPT. Call it before anything else.
+  absl::Status Restore();
+  // Keeps what was used since the last call; where that fails, the next call tries again. Slow.
+  absl::Status Save();
 
   const QuotaOptions& options() const { return options_; }
 
@@ -49,11 +55,13 @@ class Quotas {
   struct Work {
     int64_t rays = 0;
     double cpu_seconds = 0;
+    bool is_saved = false;
   };
   void BeginDay() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const QuotaOptions options_;
   const std::function<int64_t()> now_;
+  RecordStore* const records_;
   absl::Mutex mutex_;
   int64_t day_ ABSL_GUARDED_BY(mutex_) = 0;
   std::map<std::string, Work> work_ ABSL_GUARDED_BY(mutex_);  // of the day, by owner

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <openssl/crypto.h>
 #include <openssl/rand.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,7 +11,6 @@
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_split.h"
-#include "net/credentials.h"
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
 #include "server/base/files.h"
@@ -84,46 +82,15 @@ absl::StatusOr<std::string> AddToken(const std::string& path, const Identity& id
   return token;
 }
 
-absl::StatusOr<std::unique_ptr<TokenFile>> TokenFile::Open(const std::string& path, Log log) {
-  std::unique_ptr<TokenFile> file(new TokenFile(path, std::move(log)));
-  if (absl::Status status = file->Read(file->LookAtFile()); !status.ok()) return status;
-  return file;
-}
-
-TokenFile::Stamp TokenFile::LookAtFile() const {
-  struct stat info {};
-  if (stat(path_.c_str(), &info) != 0) return {};
-  return {info.st_mtim.tv_sec, info.st_mtim.tv_nsec, info.st_size,
-          static_cast<int64_t>(info.st_ino)};
-}
-
-absl::Status TokenFile::Read(const Stamp& stamp) {
-  absl::StatusOr<std::string> text = ReadCredential("tokens", path_);
-  absl::StatusOr<std::vector<TokenEntry>> entries =
-      text.ok() ? ParseTokens(*text, path_) : text.status();
-  absl::MutexLock lock(&mutex_);
-  stamp_ = stamp;
+absl::StatusOr<std::unique_ptr<TokenFile>> TokenFile::Open(
+    const std::string& path, std::function<void(const std::string&)> log) {
+  auto entries = Entries::Open("tokens", path, ParseTokens, std::move(log));
   if (!entries.ok()) return entries.status();
-  entries_ = std::make_shared<const std::vector<TokenEntry>>(*std::move(entries));
-  return absl::OkStatus();
+  return std::unique_ptr<TokenFile>(new TokenFile(*std::move(entries)));
 }
 
 std::shared_ptr<const Identity> TokenFile::Find(const std::string& token) {
-  const Stamp stamp = LookAtFile();
-  bool changed = false;
-  {
-    absl::MutexLock lock(&mutex_);
-    changed = stamp_ != stamp;
-  }
-  if (changed) {
-    const absl::Status read = Read(stamp);
-    log_(read.ok() ? "the tokens were read again" : std::string(read.message()));
-  }
-  Entries entries;
-  {
-    absl::MutexLock lock(&mutex_);
-    entries = entries_;
-  }
+  const std::shared_ptr<const std::vector<TokenEntry>> entries = entries_->Get();
   const std::string sha256 = Sha256Hex(token);
   const TokenEntry* found = nullptr;
   for (const TokenEntry& entry : *entries) {

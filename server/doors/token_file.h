@@ -1,7 +1,6 @@
 // The tokens that open the doors: who has one, and its SHA-256. Never the token itself.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,7 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "absl/synchronization/mutex.h"
+#include "server/doors/followed_file.h"
 #include "server/doors/identity.h"
 
 namespace lambert::server {
@@ -30,31 +29,21 @@ absl::StatusOr<std::vector<TokenEntry>> ParseTokens(const std::string& text,
 absl::StatusOr<std::string> AddToken(const std::string& path, const Identity& identity);
 
 // A token file that is followed: who is added or removed in it comes in or stays out from the next
-// call on. A file that has become bad is told to `log`, and its last good state holds. Thread safe.
+// call on. Thread safe.
 class TokenFile {
  public:
-  using Log = std::function<void(const std::string&)>;
-  static absl::StatusOr<std::unique_ptr<TokenFile>> Open(const std::string& path, Log log);
+  // Fails as ReadCredential and ParseTokens do.
+  static absl::StatusOr<std::unique_ptr<TokenFile>> Open(
+      const std::string& path, std::function<void(const std::string&)> log);
 
   // Whose token it is; null for nobody's. Takes as long whatever the token is.
   std::shared_ptr<const Identity> Find(const std::string& token);
 
  private:
-  struct Stamp {
-    int64_t seconds = 0, nanoseconds = 0, size = -1, inode = 0;
-    bool operator==(const Stamp&) const = default;
-  };
-  using Entries = std::shared_ptr<const std::vector<TokenEntry>>;
+  using Entries = FollowedFile<std::vector<TokenEntry>>;
+  explicit TokenFile(std::unique_ptr<Entries> entries) : entries_(std::move(entries)) {}
 
-  TokenFile(std::string path, Log log) : path_(std::move(path)), log_(std::move(log)) {}
-  Stamp LookAtFile() const;
-  absl::Status Read(const Stamp& stamp);
-
-  const std::string path_;
-  const Log log_;
-  absl::Mutex mutex_;
-  Stamp stamp_ ABSL_GUARDED_BY(mutex_);
-  Entries entries_ ABSL_GUARDED_BY(mutex_);
+  const std::unique_ptr<Entries> entries_;
 };
 
 }  // namespace lambert::server

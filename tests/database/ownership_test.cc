@@ -308,8 +308,12 @@ TEST_F(Ownership, RaysOfADayAreLimited) {
   v1::SolveJob next;
   grpc::ClientContext today, tomorrow;
   EXPECT_EQ(ReasonOf(alice.jobs()->CreateSolveJob(&today, request, &next)), "QUOTA_EXCEEDED");
+  Open(options);  // what was used outlasts a restart
+  Guest again = As("alice");
+  grpc::ClientContext later;
+  EXPECT_EQ(ReasonOf(again.jobs()->CreateSolveJob(&later, request, &next)), "QUOTA_EXCEEDED");
   ++day_;
-  EXPECT_TRUE(alice.jobs()->CreateSolveJob(&tomorrow, request, &next).ok());
+  EXPECT_TRUE(again.jobs()->CreateSolveJob(&tomorrow, request, &next).ok());
 }
 
 }  // namespace

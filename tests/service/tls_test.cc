@@ -93,6 +93,41 @@ TEST_F(Tls, TokensAndCertificatesLiveSideBySide) {
   EXPECT_EQ(ReasonOf(ListWorkers({File("ca.crt"), "", "", ""})), "TOKEN_MISSING");
 }
 
+TEST_F(Tls, ACertificateThatIsTakenBackOpensNothingFromTheNextCallOn) {
+  Make("client bob");
+  std::ofstream(File("revoked")) << "# nobody yet\n";
+  Serve({.tls_client_ca = File("ca.crt"), .tls_revoked = File("revoked")});
+  const auto farm = v1::FarmService::NewStub(Dial(Certified("client-alice")));
+  const auto call = [&farm] {
+    grpc::ClientContext context;
+    v1::ListWorkersResponse response;
+    return farm->ListWorkers(&context, {}, &response);
+  };
+  EXPECT_TRUE(call().ok());
+  const std::string print = "openssl x509 -noout -fingerprint -sha256 -in " +
+                            File("client-alice.crt") + " >>" + File("revoked");
+  ASSERT_EQ(std::system(print.c_str()), 0);
+  EXPECT_EQ(ReasonOf(call()), "CERTIFICATE_REVOKED");
+  EXPECT_TRUE(ListWorkers(Certified("client-bob")).ok());
+  // A list that cannot be read takes nobody back in.
+  std::ofstream(File("revoked")) << "who knows\n";
+  EXPECT_EQ(ReasonOf(call()), "CERTIFICATE_REVOKED");
+  for (const server::DoorOptions& doors :
+       {server::DoorOptions{.tls_revoked = File("revoked")},
+        server::DoorOptions{.tls_client_ca = File("ca.crt"), .tls_revoked = File("revoked")}}) {
+    server::DoorOptions with_key = doors;
+    with_key.tls_cert = File("server.crt");
+    with_key.tls_key = File("server.key");
+    EXPECT_EQ(
+        ReasonOf(server::RpcServer::Start(coordinator_.get(), "127.0.0.1:0", with_key).status()),
+        "FIELD_INVALID");
+  }
+  EXPECT_EQ(ReasonOf(server::RpcServer::Start(coordinator_.get(), "127.0.0.1:0",
+                                              {.tls_revoked = File("revoked")})
+                         .status()),
+            "FIELD_INVALID");
+}
+
 TEST_F(Tls, ATokenTravelsInPlainTextOnlyOnLoopback) {
   const std::string token = *server::AddToken(File("tokens"), {"bob", server::Role::kClient});
   std::ofstream(File("bob")) << token << "\n";
