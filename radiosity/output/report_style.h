@@ -29,7 +29,7 @@ img { display: block; width: 100%; height: auto; border-radius: 6px; }
 table { border-collapse: collapse; width: 100%; font-size: 0.91rem; }
 th { text-align: left; font-weight: 600; color: var(--soft); white-space: nowrap; }
 th, td { padding: 0.34rem 0.9rem 0.34rem 0; border-bottom: 1px solid var(--line);
-  vertical-align: top; overflow-wrap: anywhere; }
+  vertical-align: top; overflow-wrap: break-word; }
 td:first-child { min-width: 6.5rem; }
 td.n, th.n { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
 td.fact { white-space: nowrap; color: var(--soft); padding-right: 2rem; width: 1%; }
@@ -45,11 +45,16 @@ svg line.estimate, svg line.true { stroke-width: 2; }
 svg polyline { fill: none; stroke-width: 2; stroke-linejoin: round; }
 svg circle.estimate { fill: var(--accent); stroke: none; }
 svg circle.true { fill: var(--second); stroke: none; }
+td.fact + td { overflow-wrap: anywhere; }
+@page { margin: 14mm; }
 @media print { :root { --ink: #000; --soft: #444; --paper: #fff; --line: #bbb; --panel: #fff;
-  --accent: #b45309; --second: #1d6fa5; } figure, table, .tiles { break-inside: avoid; }
-  body { padding: 0; font-size: 12px; } h2 { break-after: avoid; margin-top: 1.6rem; }
+  --accent: #b45309; --second: #1d6fa5; } figure, tr, .tiles, .warning { break-inside: avoid; }
+  body { padding: 0; max-width: none; font-size: 12px; print-color-adjust: exact; }
+  h2 { break-after: avoid; margin-top: 1.4rem; } img { width: auto; max-width: 100%;
+  max-height: 9.4cm; margin: 0 auto; } figcaption, h2 + figure { text-align: center; }
+  figure svg { max-width: 15cm; margin: 0 auto; }
   .tiles { grid-template-columns: repeat(5, 1fr); } .scroll { overflow-x: visible; }
-  th, td { padding-right: 0.5rem; } th { white-space: normal; } }
+  th, td { padding-right: 0.5rem; overflow-wrap: break-word; } th { white-space: normal; } }
 )css";
 
 }  // namespace lambert
