@@ -8,6 +8,7 @@
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
 #include "radiosity/gather/gather_units.h"
+#include "radiosity/shoot/directions.h"
 #include "radiosity/shoot/options_codec.h"
 #include "worker/out_of_memory.h"
 
@@ -76,7 +77,8 @@ absl::StatusOr<std::shared_ptr<const Shooter>> ShooterCache::Make(const ShooterK
   if (!options.ok()) return options.status();
   absl::StatusOr<PatchSet> patches = Patches(key);
   if (!patches.ok()) return patches.status();
-  patches->exitance_lm_per_m2 = std::vector<Rgb>();  // units say what is shot
+  // Units say what is shot; only densities ask which rooms are lit.
+  if (!CountsPatches(*options)) patches->exitance_lm_per_m2 = std::vector<Rgb>();
   return make_(std::make_shared<const PatchSet>(*std::move(patches)), *options);
 } catch (const std::exception& error) {
   return OutOfMemory(error);

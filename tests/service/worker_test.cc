@@ -116,6 +116,15 @@ TEST_F(ShooterCacheTest, RefusesOtherBytesThanItAskedForAndTriesAgain) {
   EXPECT_EQ(fetched_, 2);
 }
 
+TEST_F(ShooterCacheTest, DensitiesOfAClosedRoomAreToldWhetherItIsLit) {
+  ShootOptions options;
+  options.method = Method::kPhs;
+  sent_ = EncodePatchSet(PatchesOf(MakeFurnace(0.5)));
+  const ShooterKey key{Sha256Hex(sent_), static_cast<int64_t>(sent_.size()),
+                       EncodeShootOptions(options)};
+  EXPECT_TRUE(cache_.Get(key).ok());
+}
+
 TEST_F(ShooterCacheTest, RefusesBytesThatAreNoPatchSet) {
   sent_ = "no patches";
   EXPECT_FALSE(Get(sent_).ok());
