@@ -16,9 +16,9 @@ farms() { # SHARDS PATCHES NODES...
 }
 {
   echo "shards,$("$simulate" --header)"
-  farms 1 1e5 1 2 4 8 16 32 64 128 256
+  farms 0 1e5 1 2 4 8 16 32 64 128 256
   for patches in 1e6 1e7 1e8; do
-    farms 1 "$patches" 1 2 4 8 16 32 64 128 256
+    farms 0 "$patches" 1 2 4 8 16 32 64 128 256
     farms 8 "$patches" 8 16 32 64 128 256
   done
 } >"$out/scaling.csv"
@@ -35,10 +35,10 @@ set grid
 set yrange [0.5:100]
 curve(patches, shards) = sprintf("< awk -F, '$1 == %d && $3 == %d' %s/scaling.csv", shards, patches, out)
 plot x with lines dashtype 3 lc 'gray' title 'no loss', \
-  curve(1e5, 1) using 2:($2*$9) with linespoints lc 1 title '1e5 patches', \
-  curve(1e6, 1) using 2:($2*$9) with linespoints lc 2 title '1e6', \
-  curve(1e7, 1) using 2:($2*$9) with linespoints lc 3 title '1e7', \
-  curve(1e8, 1) using 2:($2*$9) with linespoints lc 4 title '1e8', \
+  curve(1e5, 0) using 2:($2*$9) with linespoints lc 1 title '1e5 patches', \
+  curve(1e6, 0) using 2:($2*$9) with linespoints lc 2 title '1e6', \
+  curve(1e7, 0) using 2:($2*$9) with linespoints lc 3 title '1e7', \
+  curve(1e8, 0) using 2:($2*$9) with linespoints lc 4 title '1e8', \
   curve(1e6, 8) using 2:($2*$9) with lines dashtype 2 lc 2 title '8 merge shards', \
   curve(1e7, 8) using 2:($2*$9) with lines dashtype 2 lc 3 notitle, \
   curve(1e8, 8) using 2:($2*$9) with lines dashtype 2 lc 4 notitle

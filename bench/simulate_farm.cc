@@ -36,7 +36,7 @@ struct Constants {
   double bandwidth = 1.25e9;       // bytes a second into the coordinator
   double session = 0.3e-6;         // the table's lock at each call, a session
   double latency = 0.1e-3;         // of a message
-  double shards = 1;               // that merge, each a range of the patches
+  double shards = 0;               // merge shards, each like the coordinator; 0: it merges itself
   double units_per_slot = 2;       // WorkOptions
   double max_unit_rays = 1 << 21;  // WorkOptions
   double combine = 1;              // 1: units that ended travel as one result; 0: one by one
@@ -90,7 +90,10 @@ struct Server {
 class Simulation {
  public:
   Simulation(int nodes, double patches, const Constants& constants)
-      : c_(constants), patches_(patches), processors_(static_cast<size_t>(c_.cores * c_.shards)) {
+      : c_(constants),
+        patches_(patches),
+        processors_(static_cast<size_t>(c_.cores)),
+        ledger_processors_(static_cast<size_t>(c_.cores)) {
     options_.units_per_slot = static_cast<int>(c_.units_per_slot);
     options_.max_unit_rays = static_cast<int64_t>(c_.max_unit_rays);
     for (int i = 0; i < nodes; ++i) {
@@ -161,7 +164,7 @@ class Simulation {
     const int64_t grain = lambert::UnitRays(whole, static_cast<int64_t>(patches_));
     std::vector<int64_t> grains(static_cast<size_t>(whole / grain), grain);
     if (whole % grain > 0) grains.push_back(whole % grain);
-    now_ += c_.step + c_.patch * patches_ / c_.shards;
+    now_ += c_.step + c_.patch * patches_;
     AddStep(state_, "job", ++number_, grains);
     left_ = grains.size();
     Dispatch();
@@ -172,6 +175,13 @@ class Simulation {
       Handle(event);
     }
     RemoveStep(state_, "job");
+    if (c_.shards > 0) CollectSums(rays);
+  }
+
+  // The shards' sums come over the link of the coordinator, which decodes them beside each other.
+  void CollectSums(double rays) {
+    const double bytes = ResultBytes(rays);
+    now_ += bytes / c_.bandwidth + c_.byte * bytes / std::min(c_.shards, c_.cores);
   }
 
   void Handle(const Event& event) {
@@ -212,8 +222,16 @@ class Simulation {
     }
   }
 
+  static Server& FirstFree(std::vector<Server>& processors) {
+    return *std::min_element(
+        processors.begin(), processors.end(),
+        [](const Server& a, const Server& b) { return a.free_at < b.free_at; });
+  }
+
   // A node sends one result at a time, of all units that ended meanwhile or of one: over the link,
-  // to a processor of the coordinator, to the one who merges.
+  // to a processor of the coordinator, to the one who merges. With merge shards a part goes that
+  // way to each of them, which are alike, so that one stands for all; then the ledger to the
+  // coordinator.
   void Send(int index) {
     Node& node = nodes_[static_cast<size_t>(index)];
     if (!node.sent.empty() || node.ended.empty()) return;
@@ -225,12 +243,14 @@ class Simulation {
     for (const std::string& lease : node.sent) rays += UnitRays(lease);
     const double bytes = ResultBytes(rays);
     bytes_ += bytes;
-    const double received = link_.Serve(now_, bytes / (c_.bandwidth * c_.shards)) + c_.latency;
-    Server& processor =
-        *std::min_element(processors_.begin(), processors_.end(),
-                          [](const Server& a, const Server& b) { return a.free_at < b.free_at; });
-    const double decoded = processor.Serve(received, c_.unit + (c_.byte - c_.merge_byte) * bytes);
-    const double merged = merging_.Serve(decoded, c_.merge_byte * bytes / c_.shards);
+    const double part = bytes / std::max(c_.shards, 1.0);
+    const double received = link_.Serve(now_, part / c_.bandwidth) + c_.latency;
+    const double decoded =
+        FirstFree(processors_).Serve(received, c_.unit + (c_.byte - c_.merge_byte) * part);
+    double merged = merging_.Serve(decoded, c_.merge_byte * part);
+    if (c_.shards > 0) {
+      merged = FirstFree(ledger_processors_).Serve(merged + 2 * c_.latency, c_.unit);
+    }
     events_.push({Locked(merged), Kind::kArrived, index, ""});
   }
 
@@ -285,7 +305,8 @@ class Simulation {
   std::map<std::string, int> by_name_;
   std::priority_queue<Event> events_;
   Server link_, merging_, table_;
-  std::vector<Server> processors_;
+  std::vector<Server> processors_;         // of who merges: the coordinator, or a shard
+  std::vector<Server> ledger_processors_;  // of the coordinator, while shards merge
   double now_ = 0, rays_ = 0, bytes_ = 0, policy_seconds_ = 0;
   int64_t number_ = 0, next_lease_ = 0, units_ = 0, policy_calls_ = 0;
   size_t left_ = 0;  // grains of the step that are not merged

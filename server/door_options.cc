@@ -4,23 +4,25 @@
 
 namespace lambert::server {
 
-void AddDoorOptions(CLI::App& app, DoorOptions& doors, NewToken& wanted) {
+CLI::Option* AddDoorOptions(CLI::App& app, DoorOptions& doors) {
   app.add_option("--tls-cert", doors.tls_cert, "PEM file of the server's certificate: TLS only");
   app.add_option("--tls-key", doors.tls_key, "PEM file of that certificate's key");
   app.add_option("--tls-client-ca", doors.tls_client_ca,
                  "PEM file of who signs certificates of clients and workers");
   app.add_option("--tls-revoked", doors.tls_revoked,
                  "file of fingerprints of those certificates that are taken back");
-  CLI::Option* tokens =
-      app.add_option("--tokens", doors.tokens, "file of who may come with which token");
   app.add_flag("--insecure", doors.insecure,
                "listen on any address, also where anybody may come or tokens can be read");
+  return app.add_option("--tokens", doors.tokens, "file of who may come with which token");
+}
+
+void AddNewTokenOptions(CLI::App& app, CLI::Option* tokens, NewToken& wanted) {
   CLI::Option* new_token =
       app.add_option("--new-token", wanted.name,
                      "add a token of this name to the file of --tokens, print it, and end")
           ->needs(tokens);
-  app.add_option("--role", wanted.role, "of the new token: client, worker or admin")
-      ->check(CLI::IsMember({"client", "worker", "admin"}))
+  app.add_option("--role", wanted.role, "of the new token: client, worker, merger or admin")
+      ->check(CLI::IsMember({"client", "worker", "merger", "admin"}))
       ->needs(new_token)
       ->capture_default_str();
 }

@@ -1,4 +1,5 @@
-// The options of lambert-server that say who may come in, and what they may use.
+// The options of lambert-server, and of lambert-merger, that say who may come in, and what they may
+// use.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,9 @@ struct NewToken {
   std::string role = "client";
 };
 
-void AddDoorOptions(CLI::App& app, DoorOptions& doors, NewToken& wanted);
+// Of every program that is called. Returns --tokens.
+CLI::Option* AddDoorOptions(CLI::App& app, DoorOptions& doors);
+void AddNewTokenOptions(CLI::App& app, CLI::Option* tokens, NewToken& wanted);
 
 // What a client may have, and what a scene or job may take.
 void AddLimitOptions(CLI::App& app, CoordinatorOptions& options);

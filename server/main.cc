@@ -122,9 +122,14 @@ int main(int argc, char** argv) {
           CLI::CheckedTransformer(std::map<std::string, JournalMode>{{"auto", JournalMode::kAuto},
                                                                      {"every", JournalMode::kEvery},
                                                                      {"off", JournalMode::kOff}}));
+  app.add_option("--shard-patches", options.work.least_shard_patches,
+                 "a merge shard takes at least so many patches, and jobs of fewer need none")
+      ->check(CLI::Range(1, 1 << 30))
+      ->capture_default_str();
   lambert::server::AddLimitOptions(app, options);
   lambert::server::NewToken new_token;
-  lambert::server::AddDoorOptions(app, places.doors, new_token);
+  lambert::server::AddNewTokenOptions(app, lambert::server::AddDoorOptions(app, places.doors),
+                                      new_token);
   lambert::TelemetryOptions telemetry;
   lambert::AddTelemetryOptions(app, telemetry);
   double worker_timeout_s = lambert::server::ToSeconds(options.work.session_expiry);

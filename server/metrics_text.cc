@@ -18,6 +18,8 @@ void AddWork(const WorkTable& work, MetricPage& page) {
              load.queued_seconds);
   page.Gauge("lambert_leases", "Units that workers hold.", load.leases);
   page.Gauge("lambert_workers", "Workers that are connected.", load.workers);
+  page.Gauge("lambert_merge_shards", "Merge shards that are connected.",
+             work.shards().shard_count());
   page.Gauge("lambert_slots", "Units that workers run at once.", load.slots);
 
   const WorkCounters& counters = work.counters();

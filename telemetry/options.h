@@ -13,6 +13,7 @@ struct TelemetryOptions {
   LogFormat log_format = LogFormat::kText;
 };
 
-void AddTelemetryOptions(CLI::App& app, TelemetryOptions& options);  // --http, --log-format
+void AddTelemetryOptions(CLI::App& app, TelemetryOptions& options);  // --http, and the one below
+void AddLogOption(CLI::App& app, LogFormat& format);                 // --log-format
 
 }  // namespace lambert

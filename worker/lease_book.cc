@@ -12,6 +12,12 @@ void LeaseBook::Add(v1::Lease lease) {
 void LeaseBook::Revoke(const std::string& lease) {
   absl::MutexLock lock(&mutex_);
   std::erase_if(waiting_, [&](const v1::Lease& waiting) { return waiting.name() == lease; });
+  if (taken_.count(lease) > 0) revoked_.insert(lease);
+}
+
+bool LeaseBook::IsWanted(const std::string& lease) const {
+  absl::MutexLock lock(&mutex_);
+  return taken_.count(lease) > 0 && revoked_.count(lease) == 0;
 }
 
 std::optional<v1::Lease> LeaseBook::Take() {
@@ -31,12 +37,14 @@ std::optional<v1::Lease> LeaseBook::Take() {
 void LeaseBook::Remove(const std::string& lease) {
   absl::MutexLock lock(&mutex_);
   taken_.erase(lease);
+  revoked_.erase(lease);
   --running_;
 }
 
 void LeaseBook::Fail(const std::string& lease, const std::string& message) {
   absl::MutexLock lock(&mutex_);
   --running_;
+  revoked_.erase(lease);
   auto report = taken_.find(lease);
   if (report == taken_.end()) return;
   report->second.set_state(v1::LeaseReport::STATE_FAILED);
@@ -66,6 +74,7 @@ void LeaseBook::Forget() {
   absl::MutexLock lock(&mutex_);
   waiting_.clear();
   taken_.clear();
+  revoked_.clear();
 }
 
 void LeaseBook::Close() {

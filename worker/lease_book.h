@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,10 @@ inline LogSubject SubjectOf(const v1::Lease& lease) {
 class LeaseBook {
  public:
   void Add(v1::Lease lease);
-  // Drops a lease that waits; one that runs goes on.
+  // Drops a lease that waits; one that runs goes on, and nobody wants its result.
   void Revoke(const std::string& lease);
+  // True for a lease that was taken and is wanted.
+  bool IsWanted(const std::string& lease) const;
   // Blocks until a lease waits, and makes it run; nothing once the book is closed.
   std::optional<v1::Lease> Take();
   // The lease's result was sent, or nobody wants it.
@@ -47,6 +50,7 @@ class LeaseBook {
   mutable absl::Mutex mutex_;
   std::deque<v1::Lease> waiting_ ABSL_GUARDED_BY(mutex_);
   std::map<std::string, v1::LeaseReport> taken_ ABSL_GUARDED_BY(mutex_);  // active and failed
+  std::set<std::string> revoked_ ABSL_GUARDED_BY(mutex_);                 // of those taken
   int running_ ABSL_GUARDED_BY(mutex_) = 0;
   bool closed_ ABSL_GUARDED_BY(mutex_) = false;
 };

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "absl/synchronization/mutex.h"
+#include "net/follow_server.h"
 #include "telemetry/http_server.h"
 #include "telemetry/options.h"
 #include "worker/metrics_text.h"
-#include "worker/server_file.h"
 #include "worker/worker.h"
 
 namespace {
@@ -33,28 +33,21 @@ sigset_t BlockSignals() {
   return signals;
 }
 
-// Works until a signal comes. With a `server_file` for the server that it names, also for one that
-// it names later.
+// Works until a signal comes.
 void Work(const std::string& server, const std::string& server_file,
-          const lambert::CredentialFiles& credentials,
-          const lambert::worker::WorkerOptions& options, const sigset_t& signals) {
-  constexpr timespec kLookAgain = {1, 0};
-  std::string address;
+          const lambert::CredentialFiles& credentials, lambert::worker::WorkerOptions options,
+          const sigset_t& signals) {
+  options.connect = [&credentials](const std::string& address) {
+    return lambert::ConnectToServer(address, credentials);
+  };
   std::unique_ptr<lambert::worker::Worker> worker;
-  do {
-    const std::string named =
-        server_file.empty() ? server : lambert::worker::ReadServerFile(server_file);
-    if (named.empty() || named == address) continue;
-    options.log("the server is at " + named);
+  lambert::FollowServer(server, server_file, signals, [&](const std::string& address) {
+    options.log("the server is at " + address);
     worker.reset();  // two at once would take one another's place
-    address = named;
-    const auto channel = lambert::worker::ConnectToServer(address, credentials);
-    if (!channel.ok()) {
-      options.on_refused(channel.status());
-      continue;
-    }
+    const auto channel = options.connect(address);
+    if (!channel.ok()) return options.on_refused(channel.status());
     worker = std::make_unique<lambert::worker::Worker>(*channel, options);
-  } while (sigtimedwait(&signals, nullptr, &kLookAgain) < 0);
+  });
   options.log("finishing what runs; a second signal ends this at once");
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
 }

@@ -1,12 +1,31 @@
 #include "worker/result_sender.h"
 
+#include "net/backoff.h"
+#include "net/calls.h"
 #include "radiosity/core/digest.h"
-#include "worker/backoff.h"
+#include "radiosity/shoot/result_range.h"
 
 namespace lambert::worker {
+namespace {
 
-ResultSender::ResultSender(ServerLink* link, LeaseBook* book, const WorkerOptions& options)
-    : link_(link), book_(book), options_(options), thread_([this] { Work(); }) {}
+v1::SubmitUnitResultRequest HeaderOf(const FinishedUnit& unit) {
+  v1::SubmitUnitResultRequest header;
+  header.set_lease(unit.lease.name());
+  *header.mutable_unit_key() = unit.lease.unit_key();
+  header.set_run_seconds(unit.run_seconds);
+  return header;
+}
+
+}  // namespace
+
+ResultSender::ResultSender(ServerLink* link, LeaseBook* book, const WorkerOptions& options,
+                           std::function<void()> on_failed)
+    : link_(link),
+      book_(book),
+      options_(options),
+      on_failed_(std::move(on_failed)),
+      parts_(book, options, &stop_retrying_),
+      thread_([this] { Work(); }) {}
 
 ResultSender::~ResultSender() {
   {
@@ -27,8 +46,8 @@ void ResultSender::Send(const v1::Lease& lease, UnitResult result, double run_se
 
 void ResultSender::StopRetrying() { stop_retrying_.Notify(); }
 
-std::vector<ResultSender::Item> ResultSender::TakeBatch() {
-  std::vector<Item> batch;
+std::vector<FinishedUnit> ResultSender::TakeBatch() {
+  std::vector<FinishedUnit> batch;
   const v1::UnitKey first = items_.front().lease.unit_key();
   while (!items_.empty()) {
     const v1::UnitKey& next = items_.front().lease.unit_key();
@@ -41,7 +60,7 @@ std::vector<ResultSender::Item> ResultSender::TakeBatch() {
 
 void ResultSender::Work() {
   while (true) {
-    std::vector<Item> batch;
+    std::vector<FinishedUnit> batch;
     {
       absl::MutexLock lock(&mutex_);
       auto ready = [this]()
@@ -51,47 +70,63 @@ void ResultSender::Work() {
       batch = TakeBatch();
       sending_ = batch.size();
     }
-    batch.size() > 1 ? SendAll(batch) : SendOne(batch[0]);
-    for (const Item& item : batch) book_->Remove(item.lease.name());
+    const absl::Status sent = SendAll(batch);
+    for (const FinishedUnit& unit : batch) {
+      if (sent.ok()) {
+        book_->Remove(unit.lease.name());
+      } else {
+        book_->Fail(unit.lease.name(), std::string(sent.message()));
+      }
+    }
+    if (!sent.ok()) on_failed_();
     absl::MutexLock lock(&mutex_);
     sending_ = 0;
   }
 }
 
-void ResultSender::SendAll(const std::vector<Item>& items) {
-  v1::SubmitUnitResultRequest header;
-  UnitResult sum;
-  for (const Item& item : items) {
-    MergeResult(item.result, sum);
-    v1::CombinedUnit* unit = header.add_combined_units();
-    unit->set_lease(item.lease.name());
-    unit->set_unit_index(item.lease.unit_key().unit_index());
-    unit->set_result_sha256(Sha256Hex(EncodeUnitResult(item.result)));
-    unit->set_run_seconds(item.run_seconds);
+absl::Status ResultSender::SendAll(const std::vector<FinishedUnit>& units) {
+  const bool is_sharded = units[0].lease.merge_ranges_size() > 0;
+  if (units.size() == 1 && !is_sharded) {
+    SendOne(units[0]);
+    return absl::OkStatus();
   }
-  header.set_lease(items[0].lease.name());
-  *header.mutable_unit_key() = items[0].lease.unit_key();
-  header.set_run_seconds(items[0].run_seconds);
+  UnitResult sum;
+  for (const FinishedUnit& unit : units) MergeResult(unit.result, sum);
+  if (is_sharded) {
+    const absl::StatusOr<bool> sent = parts_.Send(units, sum);
+    if (!sent.ok() || !*sent) return sent.status();
+    sum = LedgerOf(sum);
+  }
+  SendSum(units, sum);
+  return absl::OkStatus();
+}
+
+void ResultSender::SendSum(const std::vector<FinishedUnit>& units, const UnitResult& sum) {
+  v1::SubmitUnitResultRequest header = HeaderOf(units[0]);
+  for (const FinishedUnit& unit : units) {
+    v1::CombinedUnit* combined = header.add_combined_units();
+    combined->set_lease(unit.lease.name());
+    combined->set_unit_index(unit.lease.unit_key().unit_index());
+    combined->set_result_sha256(Sha256Hex(EncodeUnitResult(unit.result)));
+    combined->set_run_seconds(unit.run_seconds);
+  }
   const absl::StatusOr<Outcome> outcome = Offer(std::move(header), sum);
   if (!outcome.ok()) {
-    for (const Item& item : items) LogRefusal(outcome.status(), item);
+    for (const FinishedUnit& unit : units) LogRefusal(outcome.status(), unit);
   } else if (*outcome == v1::SubmitUnitResultResponse::OUTCOME_SPLIT) {
-    for (const Item& item : items) SendOne(item);
+    for (const FinishedUnit& unit : units) SendOne(unit);
   }
 }
 
-void ResultSender::SendOne(const Item& item) {
-  v1::SubmitUnitResultRequest header;
-  header.set_lease(item.lease.name());
-  *header.mutable_unit_key() = item.lease.unit_key();
-  header.set_run_seconds(item.run_seconds);
-  const absl::StatusOr<Outcome> outcome = Offer(std::move(header), item.result);
-  if (!outcome.ok()) LogRefusal(outcome.status(), item);
+void ResultSender::SendOne(const FinishedUnit& unit) {
+  if (unit.lease.merge_ranges_size() > 0) return SendSum({unit}, LedgerOf(unit.result));
+  const absl::StatusOr<Outcome> outcome = Offer(HeaderOf(unit), unit.result);
+  if (!outcome.ok()) LogRefusal(outcome.status(), unit);
 }
 
-void ResultSender::LogRefusal(const absl::Status& status, const Item& item) const {
+void ResultSender::LogRefusal(const absl::Status& status, const FinishedUnit& unit) const {
   options_.log(
-      {"the result was not taken: " + std::string(status.message()), SubjectOf(item.lease)});
+      {"the result was not taken: " + std::string(status.message()), SubjectOf(unit.lease)});
 }
 
 absl::StatusOr<ResultSender::Outcome> ResultSender::Offer(v1::SubmitUnitResultRequest header,
@@ -105,10 +140,7 @@ absl::StatusOr<ResultSender::Outcome> ResultSender::Offer(v1::SubmitUnitResultRe
   while (true) {
     const absl::StatusOr<v1::SubmitUnitResultResponse> sent = link_->Submit(header, bytes);
     if (sent.ok()) return sent->outcome();
-    const bool is_worth_retrying = absl::IsUnavailable(sent.status()) ||
-                                   absl::IsDeadlineExceeded(sent.status()) ||
-                                   absl::IsCancelled(sent.status());  // by a server that goes
-    if (!is_worth_retrying || stop_retrying_.HasBeenNotified()) return sent.status();
+    if (!IsWorthRetrying(sent.status()) || stop_retrying_.HasBeenNotified()) return sent.status();
     backoff.Sleep(stop_retrying_);
   }
 }

@@ -2,40 +2,18 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "absl/synchronization/mutex.h"
-#include "absl/time/clock.h"
 #include "lambert/v1/blob_service.grpc.pb.h"
 #include "lambert/worker/v1/worker_service.grpc.pb.h"
-#include "radiosity/core/error.h"
+#include "net/calls.h"
 
 namespace lambert::worker {
 namespace {
 
-constexpr size_t kChunkBytes = size_t{1} << 20;
 constexpr int kDownloadAttempts = 5;
 constexpr absl::Duration kCallDeadline = absl::Seconds(10);
-
-// 30 s and 1 s for each 4 MiB.
-absl::Duration TransferDeadline(int64_t size_bytes) {
-  return absl::Seconds(30 + size_bytes / (int64_t{4} << 20));
-}
-
-void SetDeadline(grpc::ClientContext& context, absl::Duration deadline) {
-  context.set_deadline(absl::ToChronoTime(absl::Now() + deadline));
-}
-
-absl::Status FromGrpc(const grpc::Status& status) {
-  return absl::Status(static_cast<absl::StatusCode>(status.error_code()), status.error_message());
-}
-
-template <typename T>
-absl::StatusOr<T> Result(const grpc::Status& status, T response) {
-  if (!status.ok()) return FromGrpc(status);
-  return response;
-}
 
 }  // namespace
 
@@ -90,18 +68,9 @@ absl::StatusOr<v1::SubmitUnitResultResponse> ServerLink::Submit(v1::SubmitUnitRe
   SetDeadline(context, TransferDeadline(static_cast<int64_t>(bytes.size())));
   v1::SubmitUnitResultResponse response;
   auto writer = stubs_->work->SubmitUnitResult(&context, &response);
-  v1::SubmitUnitResultRequest piece = std::move(header);
-  size_t sent = 0;
-  do {
-    const size_t size = std::min(bytes.size() - sent, kChunkBytes);
-    piece.set_data(bytes.data() + sent, size);
-    sent += size;
-    if (!writer->Write(piece)) break;  // Finish says why
-    piece.Clear();
-  } while (sent < bytes.size());
-  writer->WritesDone();
-  const grpc::Status status = writer->Finish();
-  return Result(status, std::move(response));
+  const absl::Status status = WriteInChunks(*writer, std::move(header), bytes);
+  if (!status.ok()) return status;
+  return response;
 }
 
 void ServerLink::DeleteSession(const std::string& session) {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "google/protobuf/util/time_util.h"
+#include "net/backoff.h"
 #include "radiosity/shoot/shooter.h"
-#include "worker/backoff.h"
 
 namespace lambert::worker {
 

@@ -22,8 +22,6 @@ namespace {
 
 // Two jobs may take turns; more would cost memory for nothing.
 constexpr size_t kShooters = 2;
-constexpr int kKeepaliveMs = 20'000;
-constexpr int kMaxMessageBytes = 64 << 20;
 
 struct Ran {
   UnitResult result;
@@ -43,6 +41,10 @@ absl::StatusOr<Ran> RunUnit(ShooterCache& shooters, const v1::Lease& lease) try 
   absl::StatusOr<UnitResult> result = (*shooter)->Run(*unit);
   if (!result.ok()) return result.status();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  // Shards could not tell: each sees a part.
+  if (lease.merge_ranges_size() > 0) {
+    if (absl::Status sound = CheckLedger(*unit, *result); !sound.ok()) return sound;
+  }
   return Ran{*std::move(result), took.count(), unit->RayCount()};
 } catch (const std::exception& error) {
   return OutOfMemory(error);
@@ -61,7 +63,7 @@ class Worker::Impl {
               return link_.Download(sha256, size_bytes);
             },
             options.make_shooter, kShooters),
-        sender_(&link_, &book_, options),
+        sender_(&link_, &book_, options, [this] { session_.Report(); }),
         session_(&link_, &book_, options) {
     for (int i = 0; i < options.slots; ++i) {
       runners_.emplace_back([this] { RunUnits(); });
@@ -109,19 +111,5 @@ class Worker::Impl {
 Worker::Worker(std::shared_ptr<grpc::Channel> channel, const WorkerOptions& options)
     : impl_(std::make_unique<Impl>(std::move(channel), options)) {}
 Worker::~Worker() = default;
-
-absl::StatusOr<std::shared_ptr<grpc::Channel>> ConnectToServer(const std::string& address,
-                                                               const CredentialFiles& credentials) {
-  auto made = MakeChannelCredentials(address, credentials);
-  if (!made.ok()) return made.status();
-  grpc::ChannelArguments arguments;
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveMs);
-  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
-  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 3000);
-  arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
-  return grpc::CreateCustomChannel(address, *made, arguments);
-}
 
 }  // namespace lambert::worker

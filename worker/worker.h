@@ -6,7 +6,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "net/credentials.h"
+#include "net/channel.h"
 #include "radiosity/core/log.h"
 #include "worker/shooter_cache.h"
 #include "worker/worker_counters.h"
@@ -22,6 +22,9 @@ struct WorkerOptions {
   int slots = 1;             // units that run at once, each on its own thread, 1 to 4096
   std::string unit_version;  // "": that of this program
   ShooterFactory make_shooter = Shooter::Create;
+  // How merge shards are reached, which the server names.
+  std::function<absl::StatusOr<std::shared_ptr<grpc::Channel>>(const std::string& address)>
+      connect = [](const std::string& address) { return ConnectToServer(address); };
   Log log = [](const LogLine&) {};
   // Is kept up to date; workers that follow one another may share it.
   std::shared_ptr<WorkerCounters> counters = std::make_shared<WorkerCounters>();
@@ -42,10 +45,5 @@ class Worker {
   class Impl;
   const std::unique_ptr<Impl> impl_;
 };
-
-// A channel to HOST:PORT with keepalive, and messages large enough for any grant. Fails as
-// MakeChannelCredentials does.
-absl::StatusOr<std::shared_ptr<grpc::Channel>> ConnectToServer(
-    const std::string& address, const CredentialFiles& credentials = {});
 
 }  // namespace lambert::worker

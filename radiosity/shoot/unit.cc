@@ -119,28 +119,6 @@ bool Read(ByteReader& reader, uint64_t count, int64_t place_count, std::vector<D
   return true;
 }
 
-// 128 bits: a forged result must not pass by overflowing.
-struct Total {
-  std::array<__int128, 3> quanta{};
-  __int128 hits = 0;
-  bool operator==(const Total&) const = default;
-};
-
-absl::StatusOr<Total> TotalOf(const std::vector<Deposit>& deposits) {
-  Total sum;
-  for (const Deposit& deposit : deposits) {
-    if (deposit.r < 0 || deposit.g < 0 || deposit.b < 0) {
-      return Corrupt("unit result", "a deposit is negative");
-    }
-    if (deposit.hits <= 0) return Corrupt("unit result", "flux arrived without a ray");
-    sum.quanta[0] += deposit.r;
-    sum.quanta[1] += deposit.g;
-    sum.quanta[2] += deposit.b;
-    sum.hits += deposit.hits;
-  }
-  return sum;
-}
-
 std::array<int32_t, 3> Place(const Sighting& s) { return {s.emitter, s.cell, s.patch}; }
 
 }  // namespace
@@ -187,42 +165,6 @@ void SpreadGray(UnitResult& result) {
   result.shot.fill(result.shot[0]);
   result.escaped.fill(result.escaped[0]);
   result.channels = kColorChannels;
-}
-
-absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result) {
-  const int64_t rays = unit.RayCount();
-  if (result.channels != unit.channels) {
-    return Corrupt("unit result", "it has " + std::to_string(result.channels) + " channels of " +
-                                      std::to_string(unit.channels));
-  }
-  if (result.rays != rays) {
-    return Corrupt("unit result", "it reports " + std::to_string(result.rays) + " rays of " +
-                                      std::to_string(rays));
-  }
-  const absl::StatusOr<Total> total = TotalOf(result.deposits);
-  if (!total.ok()) return total.status();
-  const auto& [arrived, hits] = *total;
-  const absl::StatusOr<Total> rested = TotalOf(result.rests);
-  if (!rested.ok()) return rested.status();
-  if (*rested != (unit.rays_per_m2 > 0 ? *total : Total{})) {
-    return Corrupt("unit result", "what came to rest is not what arrived");
-  }
-  if (hits > rays) return Corrupt("unit result", "more rays arrived than were shot");
-  if (result.sightings.size() > static_cast<size_t>(hits)) {
-    return Corrupt("unit result", "more was seen than rays arrived");
-  }
-  for (int c = 0; c < 3; ++c) {
-    if (hits == rays && result.escaped[c] != 0) {
-      return Corrupt("unit result", "flux is missing although every ray arrived");
-    }
-    if (result.escaped[c] < 0 || arrived[c] + result.escaped[c] != result.shot[c]) {
-      return Corrupt("unit result, channel " + std::to_string(c),
-                     "the ledger does not balance: shot " + std::to_string(result.shot[c]) +
-                         ", arrived " + std::to_string(static_cast<int64_t>(arrived[c])) +
-                         ", escaped " + std::to_string(result.escaped[c]));
-    }
-  }
-  return absl::OkStatus();
 }
 
 std::string EncodeUnit(const WorkUnit& unit) {

@@ -51,12 +51,31 @@ absl::Status CheckAddress(const DoorOptions& options, const std::string& listen)
 }
 
 bool IsFor(Guests guests, const Identity& identity) {
-  return (guests != Guests::kWorkers && identity.is_client()) ||
-         (guests != Guests::kClients && identity.is_worker());
+  switch (guests) {
+    case Guests::kClients:
+      return identity.is_client();
+    case Guests::kWorkers:
+      return identity.is_worker();
+    case Guests::kClientsAndWorkers:
+      return identity.is_client() || identity.is_worker();
+    case Guests::kMergers:
+      return identity.is_merger();
+  }
+  return false;
 }
 
 const char* NeededRole(Guests guests) {
-  return guests == Guests::kWorkers ? "worker" : guests == Guests::kClients ? "client" : "any";
+  switch (guests) {
+    case Guests::kClients:
+      return "client";
+    case Guests::kWorkers:
+      return "worker";
+    case Guests::kClientsAndWorkers:
+      return "client or worker";
+    case Guests::kMergers:
+      return "merger";
+  }
+  return "";
 }
 
 }  // namespace

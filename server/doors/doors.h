@@ -31,7 +31,7 @@ struct DoorOptions {
 };
 
 // Whom a method is for. Admins are clients.
-enum class Guests { kClients, kWorkers, kClientsAndWorkers };
+enum class Guests { kClients, kWorkers, kClientsAndWorkers, kMergers };
 
 // Thread safe.
 class Doors {

@@ -6,7 +6,7 @@ namespace lambert::server {
 namespace {
 
 constexpr size_t kMaxNameLength = 40;
-constexpr Role kNamedRoles[] = {Role::kClient, Role::kWorker, Role::kAdmin};
+constexpr Role kNamedRoles[] = {Role::kClient, Role::kWorker, Role::kMerger, Role::kAdmin};
 
 }  // namespace
 
@@ -23,6 +23,8 @@ const char* RoleName(Role role) {
       return "client";
     case Role::kWorker:
       return "worker";
+    case Role::kMerger:
+      return "merger";
     case Role::kAdmin:
       return "admin";
     case Role::kAnybody:

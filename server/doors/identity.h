@@ -8,6 +8,7 @@ namespace lambert::server {
 enum class Role {
   kClient,   // has scenes and jobs of its own
   kWorker,   // computes units
+  kMerger,   // a merge shard: takes the sums of patches
   kAdmin,    // a client who sees what all clients have
   kAnybody,  // whoever calls where doors are open: all of the above, under the name ""
 };
@@ -18,8 +19,9 @@ struct Identity {
   std::string name;
   Role role = Role::kAnybody;
 
-  bool is_client() const { return role != Role::kWorker; }
+  bool is_client() const { return role != Role::kWorker && role != Role::kMerger; }
   bool is_worker() const { return role == Role::kWorker || role == Role::kAnybody; }
+  bool is_merger() const { return role == Role::kMerger || role == Role::kAnybody; }
   bool sees_all() const { return role == Role::kAdmin || role == Role::kAnybody; }
   // Whether it sees what belongs to `owner`.
   bool Sees(const std::string& owner) const { return sees_all() || owner == name; }
@@ -27,7 +29,7 @@ struct Identity {
 
 bool IsIdentityName(const std::string& name);
 
-// "client", "worker", "admin"; false for other words.
+// "client", "worker", "merger", "admin"; false for other words.
 bool ParseRole(const std::string& word, Role* role);
 const char* RoleName(Role role);
 

@@ -13,8 +13,9 @@
 
 namespace lambert::server {
 
-// One line a token: `NAME ROLE SHA256`, ROLE client, worker or admin. Empty lines and what follows
-// a # are left out. A name may have several tokens, so that one can take the place of another.
+// One line a token: `NAME ROLE SHA256`, ROLE client, worker, merger or admin. Empty lines and what
+// follows a # are left out. A name may have several tokens, so that one can take the place of
+// another.
 struct TokenEntry {
   Identity identity;
   std::string sha256;

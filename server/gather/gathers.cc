@@ -187,7 +187,8 @@ absl::StatusOr<UnitResult> Gathers::RunUnits(Entry& entry) {
   setup.patch_count = static_cast<PatchIndex>(2 * entry.points);
   setup.gather_task_sha256 = entry.task.sha256();
   setup.gather_task_bytes = entry.task.size_bytes();
-  auto step = parts_.work->Publish(setup, CutGather(entry.points, entry.rays_per_point));
+  auto step = parts_.work->Publish(setup, CutGather(entry.points, entry.rays_per_point),
+                                   /*may_shard=*/false);
   if (!step.ok()) return step.status();
   {
     absl::MutexLock lock(&mutex_);

@@ -38,15 +38,11 @@ void SetKeepalive(grpc::ServerBuilder& builder) {
 
 class RpcServerImpl : public RpcServer {
  public:
-  RpcServerImpl(Coordinator* coordinator, std::unique_ptr<const Doors> doors)
-      : coordinator_(coordinator), doors_(std::move(doors)) {
-    for (auto make : {MakeBlobService, MakeSceneService, MakeSolveJobService, MakeSnapshotService,
-                      MakeGatherService, MakeFarmService, MakeWorkerService}) {
-      services_.push_back(make(coordinator, doors_.get()));
-    }
-  }
+  RpcServerImpl(const MakeServices& make, std::function<void()> stop,
+                std::unique_ptr<const Doors> doors)
+      : stop_(std::move(stop)), doors_(std::move(doors)), services_(make(doors_.get())) {}
   ~RpcServerImpl() override {
-    coordinator_->Shutdown();
+    stop_();
     if (server_ == nullptr) return;
     server_->GetHealthCheckService()->SetServingStatus(false);
     server_->Shutdown(std::chrono::system_clock::now() + kGrace);
@@ -79,7 +75,7 @@ class RpcServerImpl : public RpcServer {
   }
 
  private:
-  Coordinator* const coordinator_;
+  const std::function<void()> stop_;
   const std::unique_ptr<const Doors> doors_;
   std::vector<std::unique_ptr<grpc::Service>> services_;
   std::unique_ptr<grpc::Server> server_;
@@ -90,6 +86,23 @@ class RpcServerImpl : public RpcServer {
 
 absl::StatusOr<std::unique_ptr<RpcServer>> RpcServer::Start(Coordinator* coordinator,
                                                             const std::string& listen,
+                                                            const DoorOptions& doors) {
+  const auto make = [coordinator](const Doors* opened) {
+    std::vector<std::unique_ptr<grpc::Service>> services;
+    for (auto make_one :
+         {MakeBlobService, MakeSceneService, MakeSolveJobService, MakeGatherService,
+          MakeSnapshotService, MakeFarmService, MakeWorkerService, MakeMergeService}) {
+      services.push_back(make_one(coordinator, opened));
+    }
+    return services;
+  };
+  return Start(
+      make, [coordinator] { coordinator->Shutdown(); }, listen, doors);
+}
+
+absl::StatusOr<std::unique_ptr<RpcServer>> RpcServer::Start(const MakeServices& make,
+                                                            std::function<void()> stop,
+                                                            const std::string& listen,
                                                             const DoorOptions& door_options) {
   absl::StatusOr<std::unique_ptr<Doors>> doors = Doors::Open(door_options, listen);
   if (!doors.ok()) return doors.status();
@@ -97,7 +110,7 @@ absl::StatusOr<std::unique_ptr<RpcServer>> RpcServer::Start(Coordinator* coordin
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   // Links the descriptor of the health service, which reflection shows.
   grpc::health::v1::HealthCheckRequest::descriptor();
-  auto server = std::make_unique<RpcServerImpl>(coordinator, *std::move(doors));
+  auto server = std::make_unique<RpcServerImpl>(make, std::move(stop), *std::move(doors));
   if (absl::Status status = server->Listen(listen); !status.ok()) return status;
   return server;
 }

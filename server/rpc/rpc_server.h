@@ -1,15 +1,18 @@
-// A coordinator's gRPC server: all services, health and reflection.
+// The gRPC server of a coordinator, or of a merge shard: its services, health and reflection.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "server/doors/doors.h"
 
 namespace grpc {
 class Channel;
-}
+class Service;
+}  // namespace grpc
 
 namespace lambert::server {
 
@@ -24,7 +27,14 @@ class RpcServer {
   static absl::StatusOr<std::unique_ptr<RpcServer>> Start(Coordinator* coordinator,
                                                           const std::string& listen,
                                                           const DoorOptions& doors = {});
-  // Shuts the coordinator down, ends all calls, and waits for them.
+  // The same for other services; `stop` ends the calls that they hold.
+  using MakeServices =
+      std::function<std::vector<std::unique_ptr<grpc::Service>>(const Doors* doors)>;
+  static absl::StatusOr<std::unique_ptr<RpcServer>> Start(const MakeServices& make,
+                                                          std::function<void()> stop,
+                                                          const std::string& listen,
+                                                          const DoorOptions& doors);
+  // Shuts the coordinator down, or stops, ends all calls, and waits for them.
   virtual ~RpcServer() = default;
 
   // HOST:PORT with the real port.

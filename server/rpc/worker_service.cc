@@ -1,14 +1,13 @@
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
 
-#include "google/protobuf/util/time_util.h"
 #include "lambert/worker/v1/worker_service.grpc.pb.h"
-#include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
+#include "server/base/proto_duration.h"
 #include "server/coordinator.h"
+#include "server/rpc/chunks.h"
 #include "server/rpc/reply.h"
 #include "server/rpc/services.h"
 
@@ -16,14 +15,7 @@ namespace lambert::server {
 namespace {
 
 namespace w1 = ::lambert::worker::v1;
-using google::protobuf::util::TimeUtil;
-
 constexpr char kJobPrefix[] = "solveJobs/";
-
-google::protobuf::Duration ToProto(Duration duration) {
-  return TimeUtil::NanosecondsToDuration(
-      std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count());
-}
 
 w1::Lease Encode(const GrantedLease& granted) {
   const WorkSetup& setup = granted.step->setup();
@@ -39,6 +31,13 @@ w1::Lease Encode(const GrantedLease& granted) {
   if (!setup.gather_task_sha256.empty()) {
     lease.mutable_gather_task_digest()->set_sha256(setup.gather_task_sha256);
     lease.mutable_gather_task_digest()->set_size_bytes(setup.gather_task_bytes);
+  }
+  for (const ShardRange& shard : granted.step->shards()) {
+    w1::MergeRange* range = lease.add_merge_ranges();
+    range->set_shard(shard.shard);
+    range->set_address(shard.address);
+    range->set_first_patch(shard.first);
+    range->set_end_patch(shard.end);
   }
   return lease;
 }
@@ -109,58 +108,36 @@ absl::Status NoSession(const std::string& session) {
                    {"SESSION_NOT_FOUND", session, "there is no such session", "open a new one"});
 }
 
-class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest> {
+class SubmitReactor : public ChunkReader<w1::SubmitUnitResultRequest> {
  public:
   SubmitReactor(WorkTable* work, Identity caller, w1::SubmitUnitResultResponse* response)
-      : work_(work), caller_(std::move(caller)), response_(response) {
-    StartRead(&request_);
-  }
-  void OnReadDone(bool ok) override {
-    if (!ok) return Finish(ToGrpc(IsWhole() ? Submit() : Mismatch()));
-    if (is_first_) {
-      TakeHeader();
-      for (const SubmittedUnit& unit : submission_.units) {
-        const std::string session = unit.lease.substr(0, unit.lease.find("/leases/"));
-        if (IsOthers(*work_, caller_, session)) return Finish(ToGrpc(NoSession(session)));
-      }
-      // Nobody needs the rest of a result whose step is over.
-      if (max_bytes_ == 0) return Finish(ToGrpc(Submit()));
-    }
-    submission_.bytes += request_.data();
-    if (static_cast<int64_t>(submission_.bytes.size()) > max_bytes_) {
-      // Larger than a result can be: counts as an attempt, like any other bad result.
-      return Finish(ToGrpc(Submit()));
-    }
-    StartRead(&request_);
-  }
-  void OnDone() override { delete this; }
+      : work_(work), caller_(std::move(caller)), response_(response) {}
 
  private:
-  void TakeHeader() {
-    is_first_ = false;
-    const std::string& job = request_.unit_key().solve_job();
+  absl::StatusOr<Announced> Begin(const w1::SubmitUnitResultRequest& first) override {
+    const std::string& job = first.unit_key().solve_job();
     if (job.rfind(kJobPrefix, 0) == 0) submission_.job = job.substr(sizeof(kJobPrefix) - 1);
-    submission_.step_number = request_.unit_key().step_number();
-    digest_ = request_.result_digest().sha256();
-    submission_.cpu_seconds = Seconds(request_.cpu_seconds());
-    for (const w1::CombinedUnit& unit : request_.combined_units()) {
+    submission_.step_number = first.unit_key().step_number();
+    submission_.cpu_seconds = Seconds(first.cpu_seconds());
+    for (const w1::CombinedUnit& unit : first.combined_units()) {
       submission_.units.push_back(
           {unit.lease(), unit.unit_index(), unit.result_sha256(), Seconds(unit.run_seconds())});
     }
+    const std::string digest = first.result_digest().sha256();
     if (submission_.units.empty()) {
-      submission_.units.push_back({request_.lease(), request_.unit_key().unit_index(), digest_,
-                                   Seconds(request_.run_seconds())});
+      submission_.units.push_back(
+          {first.lease(), first.unit_key().unit_index(), digest, Seconds(first.run_seconds())});
     }
-    max_bytes_ = work_->MaxResultBytes(submission_.job, submission_.step_number);
+    for (const SubmittedUnit& unit : submission_.units) {
+      const std::string session = unit.lease.substr(0, unit.lease.find("/leases/"));
+      if (IsOthers(*work_, caller_, session)) return NoSession(session);
+    }
+    return Announced{digest, work_->MaxResultBytes(submission_.job, submission_.step_number),
+                     submission_.units[0].lease};
   }
-  bool IsWhole() const { return !is_first_ && Sha256Hex(submission_.bytes) == digest_; }
-  absl::Status Mismatch() const {
-    return MakeError(
-        absl::StatusCode::kInvalidArgument,
-        {"DIGEST_MISMATCH", is_first_ ? "lease" : submission_.units[0].lease,
-         "the result that arrived is not the one that was announced", "send it again"});
-  }
-  absl::Status Submit() {
+  // A result that is larger than one can be counts as an attempt, like any other bad result.
+  absl::Status End(std::string& bytes) override {
+    submission_.bytes = std::move(bytes);
     absl::StatusOr<SubmitOutcome> outcome = work_->Submit(submission_);
     if (!outcome.ok()) return outcome.status();
     response_->set_outcome(Encode(*outcome));
@@ -170,11 +147,7 @@ class SubmitReactor : public grpc::ServerReadReactor<w1::SubmitUnitResultRequest
   WorkTable* const work_;
   const Identity caller_;
   w1::SubmitUnitResultResponse* const response_;
-  w1::SubmitUnitResultRequest request_;
   Submission submission_;
-  std::string digest_;  // that was announced
-  int64_t max_bytes_ = 0;
-  bool is_first_ = true;
 };
 
 class WorkerService : public w1::WorkerService::CallbackService {

@@ -1,7 +1,6 @@
 // Runs the steps of a job on whoever works for this coordinator.
 #pragma once
 
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -10,17 +9,12 @@
 
 namespace lambert::server {
 
+// A step whose merge shard fails is shot again; often enough, and the coordinator merges by itself,
+// where each result is checked before it counts.
 class TableExecutor : public StepExecutor {
  public:
   TableExecutor(WorkTable* work, WorkSetup setup) : work_(work), setup_(std::move(setup)) {}
-  absl::StatusOr<UnitResult> RunStep(const std::vector<WorkUnit>& units) override {
-    if (units.empty()) return UnitResult{};
-    absl::StatusOr<std::shared_ptr<PublishedStep>> step = work_->Publish(setup_, units);
-    if (!step.ok()) return step.status();
-    absl::StatusOr<UnitResult> result = (*step)->Wait();
-    work_->Withdraw(setup_.job);
-    return result;
-  }
+  absl::StatusOr<UnitResult> RunStep(const std::vector<WorkUnit>& units) override;
 
  private:
   WorkTable* const work_;

@@ -1,14 +1,9 @@
 // WorkTable: how work ends when the server stops.
 #include "absl/time/time.h"
-#include "radiosity/core/error.h"
+#include "server/work/refusals.h"
 #include "server/work/work_table.h"
 
 namespace lambert::server {
-
-absl::Status WorkTable::ShuttingDown() {
-  return MakeError(absl::StatusCode::kUnavailable, {"SHUTTING_DOWN", "lambert-server",
-                                                    "the server is stopping", "try again later"});
-}
 
 void WorkTable::StopGranting(Calls& calls) {
   shutting_down_ = true;
@@ -42,6 +37,7 @@ void WorkTable::Shutdown() {
     for (auto& [job, step] : steps_) step->Abort(ShuttingDown());
   }
   MakeCalls(calls);
+  shards_.Shutdown();
 }
 
 }  // namespace lambert::server

@@ -4,14 +4,11 @@
 #include <utility>
 
 #include "radiosity/core/error.h"
+#include "server/work/result_bytes.h"
 #include "server/work/work_table.h"
 
 namespace lambert::server {
 namespace {
-
-// Above what docs/formats.md gives a unit result.
-constexpr int64_t kMaxResultHeaderBytes = 1024;
-constexpr int64_t kMaxDepositBytes = 64, kMaxSightingBytes = 64;
 
 void Count(const absl::StatusOr<SubmitOutcome>& outcome, WorkCounters& counters) {
   if (!outcome.ok()) {
@@ -42,9 +39,8 @@ int64_t WorkTable::MaxResultBytes(const std::string& job, int64_t step_number) c
   absl::MutexLock lock(&mutex_);
   std::shared_ptr<PublishedStep> step = FindStep(job, step_number);
   if (step == nullptr) return 0;
-  const int64_t sightings = step->setup().has_sightings ? step->rays() : 0;
-  return kMaxResultHeaderBytes + kMaxDepositBytes * step->setup().patch_count +
-         kMaxSightingBytes * sightings;
+  return lambert::server::MaxResultBytes(step->setup().patch_count, step->rays(),
+                                         step->setup().has_sightings);
 }
 
 std::string WorkTable::WorkerOf(const std::string& lease) const {

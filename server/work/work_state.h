@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "radiosity/core/log.h"
+#include "radiosity/patch/patch_set.h"
 #include "server/base/clock.h"
 
 namespace lambert::server {
@@ -29,6 +30,8 @@ struct WorkOptions {
   // one without a success between, and at most `longest_rest`.
   Duration first_rest = std::chrono::milliseconds(100), longest_rest = std::chrono::seconds(5);
   Log log = [](const LogLine&) {};  // of sessions that end and leases that fail
+  // A range of patches that is shorter is not worth a message to a merge shard, > 0: half a MiB.
+  PatchIndex least_shard_patches = 1 << 14;
   int64_t max_unit_rays = 1 << 21;  // about half a second: grains are lent together up to that, > 0
 
   // Sets the expiry, and a sync interval of a fifth of it that is at most 2 s.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "radiosity/core/error.h"
+#include "server/work/refusals.h"
 
 namespace lambert::server {
 namespace {
@@ -58,6 +59,7 @@ WorkTable::WorkTable(const WorkOptions& options, std::string unit_version, int64
     : options_(options),
       unit_version_(std::move(unit_version)),
       clock_(std::move(clock)),
+      shards_(options, unit_version_, epoch, clock_),
       next_step_(epoch),
       next_name_(epoch) {}
 
@@ -65,11 +67,7 @@ absl::StatusOr<std::string> WorkTable::OpenSession(const std::string& worker_id,
                                                    const std::string& unit_version) {
   if (absl::Status status = CheckWorker(worker_id, slots); !status.ok()) return status;
   if (unit_version != unit_version_) {
-    return MakeError(absl::StatusCode::kFailedPrecondition,
-                     {"UNIT_VERSION_UNSUPPORTED", "worker " + worker_id,
-                      "it computes units as \"" + unit_version + "\", the server wants \"" +
-                          unit_version_ + "\"",
-                      "install the same version of lambert on both"});
+    return VersionUnsupported("worker " + worker_id, unit_version, unit_version_);
   }
   Calls calls;
   std::string name;
@@ -267,33 +265,41 @@ void WorkTable::Answer(const std::string& name, std::vector<GrantedLease> leases
 }
 
 absl::StatusOr<std::shared_ptr<PublishedStep>> WorkTable::Publish(
-    const WorkSetup& setup, const std::vector<WorkUnit>& grains) {
+    const WorkSetup& setup, const std::vector<WorkUnit>& grains, bool may_shard) {
   std::vector<int64_t> rays;
   for (const WorkUnit& grain : grains) rays.push_back(grain.RayCount());
+  const std::vector<ShardRange> shards =
+      may_shard ? shards_.Divide(setup.patch_count) : std::vector<ShardRange>();
   Calls calls;
   std::shared_ptr<PublishedStep> step;
   {
     absl::MutexLock lock(&mutex_);
     if (shutting_down_) return ShuttingDown();
     if (auto aborted = aborted_.find(setup.job); aborted != aborted_.end()) return aborted->second;
-    step = std::make_shared<PublishedStep>(setup, next_step_++, grains);
+    step = std::make_shared<PublishedStep>(setup, next_step_++, grains, shards);
     steps_[setup.job] = step;
     AddStep(state_, setup.job, step->number(), rays);
     Dispatch(calls);
   }
+  shards_.Add(step);  // before any worker has a unit of it
   MakeCalls(calls);
   return step;
 }
 
 void WorkTable::Withdraw(const std::string& job) {
   Calls calls;
+  std::shared_ptr<PublishedStep> step;
   {
     absl::MutexLock lock(&mutex_);
     RemoveStep(state_, job);
-    steps_.erase(job);
+    if (auto found = steps_.find(job); found != steps_.end()) {
+      step = std::move(found->second);
+      steps_.erase(found);
+    }
     TellRevoked();
     Dispatch(calls);
   }
+  if (step != nullptr) shards_.Remove(step);
   MakeCalls(calls);
 }
 
@@ -330,6 +336,7 @@ void WorkTable::Tick() {
     Dispatch(calls);
     notes.swap(notes_);
   }
+  shards_.Tick();
   for (const LogLine& note : notes) options_.log(note);
   MakeCalls(calls);
 }

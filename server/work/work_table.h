@@ -13,6 +13,7 @@
 #include "server/base/clock.h"
 #include "server/work/next_leases.h"
 #include "server/work/published_step.h"
+#include "server/work/shard_table.h"
 #include "server/work/work_counters.h"
 #include "server/work/work_load.h"
 #include "server/work/work_state.h"
@@ -104,9 +105,12 @@ class WorkTable {
 
   // Offers the grains of a step to workers. PublishedStep::Wait then ends with the merged result,
   // or with UNIT_ATTEMPTS_EXHAUSTED, NONDETERMINISTIC_RESULT, SHUTTING_DOWN, or what AbortJob was
-  // given. Requires: at least one grain; the job's step before was withdrawn.
+  // given; with SHARD_FAILED where a merge shard failed: it is to be published again. Merge shards
+  // take its sums where there are any and `may_shard`. Requires: at least one grain; the job's step
+  // before was withdrawn.
   absl::StatusOr<std::shared_ptr<PublishedStep>> Publish(const WorkSetup& setup,
-                                                         const std::vector<WorkUnit>& grains);
+                                                         const std::vector<WorkUnit>& grains,
+                                                         bool may_shard = true);
   // Takes the job's step away; results that still come are obsolete.
   void Withdraw(const std::string& job);
   // Ends the job's step, and each later one, with `status`, until ForgetJob.
@@ -128,6 +132,8 @@ class WorkTable {
   std::vector<WorkerInfo> ListWorkers() const;
   WorkLoad Load() const;
   const WorkCounters& counters() const { return counters_; }
+  ShardTable& shards() { return shards_; }
+  const ShardTable& shards() const { return shards_; }
 
  private:
   // A session's calls, beside its SessionState.
@@ -142,7 +148,6 @@ class WorkTable {
   };
   using Calls = std::vector<std::function<void()>>;  // to be made without the lock
 
-  static absl::Status ShuttingDown();
   static void MakeCalls(Calls& calls) {
     for (auto& call : calls) call();
   }
@@ -192,6 +197,7 @@ class WorkTable {
   const std::string unit_version_;
   const Clock clock_;
   WorkCounters counters_;
+  ShardTable shards_;
   mutable absl::Mutex mutex_;
   int64_t next_step_ ABSL_GUARDED_BY(mutex_);
   int64_t next_name_ ABSL_GUARDED_BY(mutex_);

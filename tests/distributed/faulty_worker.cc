@@ -77,7 +77,7 @@ int Main(int argc, char** argv) {
     std::fprintf(stderr, "error: %s\n", std::string(status.message()).c_str());
     std::_Exit(1);
   };
-  const worker::Worker worker(*worker::ConnectToServer(server), options);
+  const worker::Worker worker(*ConnectToServer(server), options);
   int signal = 0;
   sigwait(&signals, &signal);
   return 0;

@@ -26,6 +26,7 @@ class DoorsTest : public ServiceFixture {
   DoorsTest() : tokens_(folder_.path() + "/tokens") {
     client_ = *AddToken(tokens_, {"alice", Role::kClient});
     worker_ = *AddToken(tokens_, {"farm", Role::kWorker});
+    merger_ = *AddToken(tokens_, {"shard", Role::kMerger});
     admin_ = *AddToken(tokens_, {"root", Role::kAdmin});
     rpc_ = *RpcServer::Start(coordinator_.get(), "", {.tokens = tokens_});
     Connect(rpc_->InProcessChannel());
@@ -36,7 +37,7 @@ class DoorsTest : public ServiceFixture {
 
   TemporaryFolder folder_;
   const std::string tokens_;
-  std::string client_, worker_, admin_;
+  std::string client_, worker_, merger_, admin_;
 };
 
 TEST_F(DoorsTest, EveryMethodAsksWhoCalls) {
@@ -54,10 +55,13 @@ TEST_F(DoorsTest, EveryMethodAsksWhoCalls) {
 TEST_F(DoorsTest, EachRoleCallsItsOwnMethodsAndNoOther) {
   for (const auto* method : AllRpcMethods()) {
     const std::string path = PathOf(*method);
-    const bool is_of_workers = method->file()->package() == "lambert.worker.v1";
+    const bool is_of_mergers = method->service()->name() == "MergeService";
+    const bool is_of_workers = method->file()->package() == "lambert.worker.v1" && !is_of_mergers;
     const bool is_of_both = path == "/lambert.v1.BlobService/DownloadBlob";
-    EXPECT_EQ(ReasonFor(path, "Bearer " + client_) == "ROLE_DENIED", is_of_workers) << path;
-    EXPECT_EQ(ReasonFor(path, "Bearer " + admin_) == "ROLE_DENIED", is_of_workers) << path;
+    const bool is_of_clients = !is_of_workers && !is_of_mergers;
+    EXPECT_EQ(ReasonFor(path, "Bearer " + client_) == "ROLE_DENIED", !is_of_clients) << path;
+    EXPECT_EQ(ReasonFor(path, "Bearer " + admin_) == "ROLE_DENIED", !is_of_clients) << path;
+    EXPECT_EQ(ReasonFor(path, "Bearer " + merger_) == "ROLE_DENIED", !is_of_mergers) << path;
     EXPECT_EQ(ReasonFor(path, "Bearer " + worker_) == "ROLE_DENIED", !is_of_workers && !is_of_both)
         << path;
   }

@@ -7,7 +7,7 @@
 #include "absl/synchronization/notification.h"
 #include "absl/time/time.h"
 
-namespace lambert::worker {
+namespace lambert {
 
 class Backoff {
  public:
@@ -26,4 +26,4 @@ class Backoff {
   std::minstd_rand random_{std::random_device{}()};
 };
 
-}  // namespace lambert::worker
+}  // namespace lambert
