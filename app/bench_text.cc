@@ -146,6 +146,8 @@ Json BenchJson(const Options& options, const BenchResult& result) {
           {"seeds", options.bench.seeds},
           {"max_edge_m", options.patch.max_edge_m},
           {"two_sided", options.patch.two_sided},
+          {"metres_per_unit", options.patch.metres_per_unit},
+          {"blend", options.patch.blend == Blend::kOpaque ? "opaque" : "omit"},
           {"place", PlaceJson(options)},
           {"regions", options.regions},
           {"reference",

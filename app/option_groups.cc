@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "app/bench_list.h"
 #include "app/option_checks.h"
@@ -73,6 +75,10 @@ void AddLimitOptions(CLI::App& command, Draft& draft) {
 
 }  // namespace
 
+// Metres of each --scene-unit.
+const std::map<std::string, double> kMetres = {
+    {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+
 const std::vector<std::string>& OptionsOfThisProcess() {
   static const auto& names =
       *new std::vector<std::string>{"workers",       "threads",          "max-triangles",
@@ -109,6 +115,24 @@ void AddSceneOptions(CLI::App& command, Draft& draft) {
           "of the file's emission: nit (default) or W/m2/sr, which makes every result radiometric")
       ->option_text("UNIT")
       ->check(OneOf({"nit", "W/m2/sr"}))
+      ->group(kScene);
+  command
+      .add_option_function<std::string>(
+          "--scene-unit",
+          [&patch](const std::string& unit) { patch.metres_per_unit = kMetres.at(unit); },
+          "of the file's lengths: m (default, as glTF has it), cm, mm, in or ft")
+      ->option_text("UNIT")
+      ->check(OneOf({"m", "cm", "mm", "in", "ft"}))
+      ->group(kScene);
+  command
+      .add_option_function<std::string>(
+          "--blend",
+          [&patch](const std::string& blend) {
+            patch.blend = blend == "omit" ? Blend::kOmit : Blend::kOpaque;
+          },
+          "materials of alpha mode BLEND: opaque (default) or omit, which leaves them out")
+      ->option_text("WHAT")
+      ->check(OneOf({"opaque", "omit"}))
       ->group(kScene);
   AddLimitOptions(command, draft);
 }

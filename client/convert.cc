@@ -42,6 +42,8 @@ void FromProto(const v1::PatchSpec& spec, PatchOptions& options) {
   options.emission_unit = spec.emission_unit() == v1::PatchSpec::EMISSION_UNIT_WATT
                               ? EmissionUnit::kWattPerM2PerSr
                               : EmissionUnit::kNit;
+  if (spec.has_meters_per_unit()) options.metres_per_unit = spec.meters_per_unit();
+  options.blend = spec.blend() == v1::PatchSpec::BLEND_OMIT ? Blend::kOmit : Blend::kOpaque;
   if (spec.has_max_patch_count()) options.max_patches = spec.max_patch_count();
 }
 
@@ -54,6 +56,9 @@ v1::SolveSpec ToProto(const PatchOptions& patch, const SolveOptions& solve) {
   spec.mutable_patch()->set_emission_unit(patch.emission_unit == EmissionUnit::kNit
                                               ? v1::PatchSpec::EMISSION_UNIT_NIT
                                               : v1::PatchSpec::EMISSION_UNIT_WATT);
+  spec.mutable_patch()->set_meters_per_unit(patch.metres_per_unit);
+  spec.mutable_patch()->set_blend(patch.blend == Blend::kOmit ? v1::PatchSpec::BLEND_OMIT
+                                                              : v1::PatchSpec::BLEND_OPAQUE);
   spec.mutable_patch()->set_max_patch_count(patch.max_patches);
   spec.mutable_shoot()->set_method(MethodName(solve.shoot.method));
   for (const auto& [name, value] : ChangedSettings(solve.shoot)) {

@@ -1,5 +1,5 @@
 # The parts that can be built alone. Each asks for the packages of its own rooms only, so that a machine
-# for workers needs neither tinygltf nor OpenEXR:
+# for workers needs no reader of file formats:
 #   cmake -B build -DLAMBERT_BUILD_SERVER=OFF -DLAMBERT_BUILD_CLIENT=OFF -DLAMBERT_BUILD_BENCH=OFF
 option(LAMBERT_BUILD_SERVER "The coordinator, lambert-server" ON)
 option(LAMBERT_BUILD_WORKER "The worker, lambert-worker" ON)

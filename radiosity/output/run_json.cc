@@ -25,6 +25,8 @@ Json OptionsJson(const SolveOptions& solve, const PatchOptions& patch) {
             {"max_edge_m", patch.max_edge_m},
             {"two_sided", patch.two_sided},
             {"emission_unit", patch.emission_unit == EmissionUnit::kNit ? "nit" : "W/m2/sr"},
+            {"metres_per_unit", patch.metres_per_unit},
+            {"blend", patch.blend == Blend::kOpaque ? "opaque" : "omit"},
             {"region", solve.shoot.region}};
   for (const ShootSetting& setting : ShootSettings()) {
     std::string key = setting.name;

@@ -29,19 +29,20 @@ absl::StatusOr<Survey> SurveyScene(const Scene& scene, const PatchOptions& optio
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Bounds bounds{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
   Survey survey;
-  absl::Status status = ForEachTriangle(scene, {}, [&](const PlacedTriangle& placed) {
-    const Shape shape = Measure(placed.corners);
-    if (!std::isfinite(shape.longest_edge_m) || !std::isfinite(shape.area_m2)) {
-      return SceneError(Where(placed.source), "its world position or its area is not finite",
-                        "check the transforms of the node and its parents");
-    }
-    for (const Vec3& p : placed.corners) bounds.Add(p);
-    ++survey.triangles;
-    survey.pieces += options.max_edge_m > 0
-                         ? MinimumPieces(shape.area_m2, shape.longest_edge_m, options.max_edge_m)
-                         : 1;
-    return absl::OkStatus();
-  });
+  absl::Status status =
+      ForEachTriangle(scene, {{}, options.metres_per_unit}, [&](const PlacedTriangle& placed) {
+        const Shape shape = Measure(placed.corners);
+        if (!std::isfinite(shape.longest_edge_m) || !std::isfinite(shape.area_m2)) {
+          return SceneError(Where(placed.source), "its world position or its area is not finite",
+                            "check the transforms of the node and its parents");
+        }
+        for (const Vec3& p : placed.corners) bounds.Add(p);
+        ++survey.triangles;
+        survey.pieces += options.max_edge_m > 0 ? MinimumPieces(shape.area_m2, shape.longest_edge_m,
+                                                                options.max_edge_m)
+                                                : 1;
+        return absl::OkStatus();
+      });
   if (!status.ok()) return status;
   if (survey.pieces > static_cast<double>(options.max_patches)) {
     return TooManyPatches(options.max_patches);
@@ -55,10 +56,10 @@ absl::StatusOr<Survey> SurveyScene(const Scene& scene, const PatchOptions& optio
   return survey;
 }
 
-absl::Status AddLights(const Scene& scene, PatchSet* patches) {
+absl::Status AddLights(const Scene& scene, const Placement& placement, PatchSet* patches) {
   for (size_t k = 0; k < scene.lights.size(); ++k) {
     Light light = scene.lights[k];
-    light.position = light.position - patches->origin;
+    light.position = placement.Place(light.position);
     const Rgb i = light.strength;
     if (!IsFinite(light.position) || !IsFinite(i) || i.r < 0 || i.g < 0 || i.b < 0) {
       return SceneError(absl::StrCat("light ", k),
@@ -70,11 +71,12 @@ absl::Status AddLights(const Scene& scene, PatchSet* patches) {
   return absl::OkStatus();
 }
 
-void AddAnnotations(const Scene& scene, PatchSet* patches) {
+void AddAnnotations(const Scene& scene, const Placement& placement, PatchSet* patches) {
   patches->node_names = scene.node_names;
   patches->cameras = scene.cameras;
   for (Camera& camera : patches->cameras) {
-    camera.world.translation = camera.world.translation - patches->origin;
+    camera.world.translation = placement.Place(camera.world.translation);
+    camera.half_height_m *= placement.metres_per_unit;
   }
 }
 
@@ -83,6 +85,9 @@ absl::Status NoTriangles(const PatchBuilder& builder) {
   if (builder.cut() > 0) {
     message = absl::StrCat("alpha mode MASK cuts all of its ", builder.cut(), " patches away");
     advice = "lower the alphaCutoff of a material";
+  } else if (builder.omitted() > 0) {
+    message = absl::StrCat("all of its ", builder.omitted(), " triangles are of alpha mode BLEND");
+    advice = "give --blend opaque";
   } else if (builder.degenerate() > 0) {
     message = absl::StrCat("all of its ", builder.degenerate(), " triangles are without area");
   }
@@ -99,6 +104,9 @@ absl::Status PatchOptions::Validate() const {
   if (!std::isfinite(max_edge_m) || max_edge_m < 0) {
     return invalid("max_edge_m", "give metres over 0, or 0 to split nothing");
   }
+  if (!std::isfinite(metres_per_unit) || !(metres_per_unit > 0)) {
+    return invalid("metres_per_unit", "give a number over 0");
+  }
   if (max_patches < 1 || max_patches > std::numeric_limits<PatchIndex>::max()) {
     return invalid("max_patches", "give a number from 1 to 2147483647");
   }
@@ -110,26 +118,27 @@ absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& op
   if (!status.ok()) return status;
   std::vector<Warning> warnings = scene.warnings;
   absl::StatusOr<std::vector<PatchMaterial>> materials =
-      MakePatchMaterials(scene, options.two_sided, &warnings);
+      MakePatchMaterials(scene, options, &warnings);
   if (!materials.ok()) return materials.status();
   absl::StatusOr<Survey> survey = SurveyScene(scene, options);
   if (!survey.ok()) return survey.status();
 
   PatchBuilder builder(*materials, scene.textures, options, survey->pieces);
-  status = ForEachTriangle(scene, survey->origin,
+  const Placement placement{survey->origin, options.metres_per_unit};
+  status = ForEachTriangle(scene, placement,
                            [&](const PlacedTriangle& placed) { return builder.Add(placed); });
   if (!status.ok()) return status;
   PatchSet patches = builder.Finish();
   if (patches.size() == 0) return NoTriangles(builder);
   patches.origin = survey->origin;
   patches.warnings.insert(patches.warnings.begin(), warnings.begin(), warnings.end());
-  status = AddLights(scene, &patches);
+  status = AddLights(scene, placement, &patches);
   if (!status.ok()) return status;
   if (!IsFinite(EmittedFlux(patches))) {
     return SceneError("scene", "its emitted flux is too large for a number",
                       "scale its emission or its size down");
   }
-  AddAnnotations(scene, &patches);
+  AddAnnotations(scene, placement, &patches);
   AppendPatchWarnings(&patches);
   return patches;
 }

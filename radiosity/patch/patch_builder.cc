@@ -81,6 +81,10 @@ PatchBuilder::PatchBuilder(const std::vector<PatchMaterial>& materials,
       samples_per_edge_(SamplesPerEdge(expected_patches)) {}
 
 absl::Status PatchBuilder::Add(const PlacedTriangle& placed) {
+  if (materials_[placed.primitive->material + 1].omitted) {
+    ++omitted_;
+    return absl::OkStatus();
+  }
   if (IsDegenerate(placed.corners, Measure(placed.corners))) {
     ++degenerate_;
     return absl::OkStatus();

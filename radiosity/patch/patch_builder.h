@@ -38,6 +38,7 @@ class PatchBuilder {
 
   int64_t degenerate() const { return degenerate_; }  // triangles without area
   int64_t cut() const { return cut_; }                // patches that alpha mode MASK left out
+  int64_t omitted() const { return omitted_; }        // triangles of materials that are left out
 
  private:
   absl::Status AddPiece(const PlacedTriangle& placed, const SplitPiece& piece);
@@ -54,7 +55,7 @@ class PatchBuilder {
   std::vector<SplitPiece> pieces_;  // of the triangle in hand
   PatchSet fronts_;                 // twin: kNoPatch, or 0 where there is a back to make
   int64_t patches_ = 0;             // backs included
-  int64_t degenerate_ = 0;
+  int64_t degenerate_ = 0, omitted_ = 0;
   int64_t cut_ = 0, partly_cut_ = 0;
 };
 

@@ -25,12 +25,12 @@ absl::Status CheckFactor(Rgb factor, size_t material, const char* what) {
 }  // namespace
 
 absl::StatusOr<std::vector<PatchMaterial>> MakePatchMaterials(const Scene& scene,
-                                                              bool all_two_sided,
+                                                              const PatchOptions& options,
                                                               std::vector<Warning>* warnings) {
   std::vector<PatchMaterial> materials(1);
   materials[0].reflectance = {1, 1, 1};
-  materials[0].two_sided = all_two_sided;
-  int clamped = 0;
+  materials[0].two_sided = options.two_sided;
+  int clamped = 0, blended = 0;
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
     absl::Status status = CheckFactor(material.reflectance, i, "reflectance");
@@ -47,7 +47,9 @@ absl::StatusOr<std::vector<PatchMaterial>> MakePatchMaterials(const Scene& scene
     }
     made.exitance_lm_per_m2 = exitance_lm_per_m2;
     if (material.luminance != Rgb{}) made.exitance_texture = material.luminance_texture;
-    made.two_sided = material.two_sided || all_two_sided;
+    made.two_sided = material.two_sided || options.two_sided;
+    made.omitted = material.blend && options.blend == Blend::kOmit;
+    if (material.blend) ++blended;
     made.alpha = material.alpha;
     made.alpha_cutoff = material.alpha_cutoff;
     materials.push_back(made);
@@ -56,6 +58,14 @@ absl::StatusOr<std::vector<PatchMaterial>> MakePatchMaterials(const Scene& scene
     warnings->push_back(
         {"REFLECTANCE_CLAMPED", absl::StrCat("the reflectance of ", clamped,
                                              " material(s) is over 1 and was taken as 1")});
+  }
+  if (blended > 0) {
+    warnings->push_back(
+        {"ALPHA_BLEND", absl::StrCat("alpha mode BLEND: ", blended, " material(s) ",
+                                     options.blend == Blend::kOmit
+                                         ? "left out; --blend opaque takes them as opaque"
+                                         : "taken as opaque; --blend omit leaves them "
+                                           "out")});
   }
   return materials;
 }

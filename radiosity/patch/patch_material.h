@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "radiosity/patch/build_patches.h"
 #include "radiosity/scene/scene.h"
 
 namespace lambert {
@@ -14,15 +15,17 @@ struct PatchMaterial {
   Rgb exitance_lm_per_m2;          // pi * luminance, multiplies the texture
   TextureUse exitance_texture;
   bool two_sided = false;
+  bool omitted = false;  // alpha mode BLEND where that is left out
   // Where alpha times those of texture and colours is under the cutoff, there is no surface.
   double alpha = 1, alpha_cutoff = 0;
 };
 
 // One for each material of the scene, at index material + 1; index 0 is glTF's default material.
-// Reflectance over 1 becomes 1 (warning REFLECTANCE_CLAMPED). What is negative or not finite is
-// refused with SceneError naming the material. A texture of which nothing shows is left out.
+// Reflectance over 1 becomes 1 (warning REFLECTANCE_CLAMPED); alpha mode BLEND is named
+// (ALPHA_BLEND). What is negative or not finite is refused with SceneError naming the material. A
+// texture of which nothing shows is left out.
 absl::StatusOr<std::vector<PatchMaterial>> MakePatchMaterials(const Scene& scene,
-                                                              bool all_two_sided,
+                                                              const PatchOptions& options,
                                                               std::vector<Warning>* warnings);
 
 }  // namespace lambert

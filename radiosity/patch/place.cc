@@ -3,11 +3,10 @@
 #include <utility>
 
 namespace lambert {
-absl::Status ForEachTriangle(const Scene& scene, Vec3 origin,
+absl::Status ForEachTriangle(const Scene& scene, const Placement& placement,
                              absl::FunctionRef<absl::Status(const PlacedTriangle&)> visit) {
   for (const Instance& instance : scene.instances) {
-    Transform world = instance.world;
-    world.translation = world.translation - origin;
+    const Transform world = placement.Place(instance.world);
     const bool mirrors = world.Determinant() < 0;
     const Mesh& mesh = scene.meshes[instance.mesh];
     const int of_file = mesh.pose_of < 0 ? instance.mesh : mesh.pose_of;

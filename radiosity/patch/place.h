@@ -9,8 +9,20 @@
 
 namespace lambert {
 
+// From the file's world to that of patches.
+struct Placement {
+  Vec3 origin;  // metres: what world positions are made relative to
+  double metres_per_unit = 1;
+
+  Vec3 Place(Vec3 world) const { return world * metres_per_unit - origin; }
+  Transform Place(const Transform& world) const {
+    return {world.x * metres_per_unit, world.y * metres_per_unit, world.z * metres_per_unit,
+            Place(world.translation)};
+  }
+};
+
 struct PlacedTriangle {
-  std::array<Vec3, 3> corners;       // metres, relative to the origin asked for
+  std::array<Vec3, 3> corners;       // metres, placed
   std::array<uint32_t, 3> vertices;  // of the primitive, in the order of `corners`
   const Primitive* primitive = nullptr;
   PatchSource source;
@@ -18,10 +30,10 @@ struct PlacedTriangle {
 
 // Calls `visit` for every triangle of every instance, in the order of the scene, until it fails.
 // Corners are counter-clockwise seen from the front: where an instance mirrors, the winding of the
-// file is turned round here, and nowhere else. The origin is taken off the transform, in double,
-// before it meets a vertex: a small object far away keeps its digits.
+// file is turned round here, and nowhere else. Transforms are placed, in double, before they meet
+// a vertex: a small object far away keeps its digits.
 // Requires: indices of the scene in range.
-absl::Status ForEachTriangle(const Scene& scene, Vec3 origin,
+absl::Status ForEachTriangle(const Scene& scene, const Placement& placement,
                              absl::FunctionRef<absl::Status(const PlacedTriangle&)> visit);
 
 }  // namespace lambert

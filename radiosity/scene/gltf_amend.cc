@@ -11,8 +11,10 @@ namespace lambert {
 namespace {
 
 using nlohmann::json;
+using nlohmann::json_literals::operator""_json_pointer;
 
 constexpr char kMeshopt[] = "EXT_meshopt_compression";
+constexpr char kDraco[] = "KHR_draco_mesh_compression";
 
 // The objects of list `name`.
 std::vector<json*> ObjectsOf(json* gltf, const char* name) {
@@ -31,6 +33,12 @@ bool Amend(json* gltf) {
     if (skin->contains("inverseBindMatrices")) continue;
     (*skin)["inverseBindMatrices"] = -1;
     amended = true;
+  }
+  for (json* mesh : ObjectsOf(gltf, "meshes")) {
+    for (json* primitive : ObjectsOf(mesh, "primitives")) {
+      if (!primitive->contains("/extensions"_json_pointer / kDraco)) continue;
+      amended |= primitive->erase("indices") > 0;
+    }
   }
   for (json* buffer : ObjectsOf(gltf, "buffers")) {
     if (!IsFallbackBuffer(*buffer)) continue;
@@ -67,8 +75,8 @@ bool IsFallbackBuffer(const json& buffer) {
 
 std::optional<std::string> AmendGltf(const std::string& main_bytes) {
   const absl::StatusOr<absl::string_view> text = FindJsonText(main_bytes);
-  if (!text.ok() ||
-      (!absl::StrContains(*text, "\"skins\"") && !absl::StrContains(*text, kMeshopt))) {
+  if (!text.ok() || (!absl::StrContains(*text, "\"skins\"") &&
+                     !absl::StrContains(*text, kMeshopt) && !absl::StrContains(*text, kDraco))) {
     return std::nullopt;
   }
   json gltf = json::parse(text->begin(), text->end(), nullptr, false);

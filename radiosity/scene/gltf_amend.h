@@ -11,9 +11,9 @@ namespace lambert {
 // it has no bytes that are read.
 bool IsFallbackBuffer(const nlohmann::json& buffer);
 
-// The file with skins that leave their inverse bind matrices out naming accessor -1, and with
-// fallback buffers of one byte; nullopt where nothing is to be changed. Requires: a file whose
-// FindJsonText is ok.
+// The file with skins that leave their inverse bind matrices out naming accessor -1, with
+// primitives that Draco compressed without indices of their own, and with fallback buffers of one
+// byte; nullopt where nothing is to be changed. Requires: a file whose FindJsonText is ok.
 std::optional<std::string> AmendGltf(const std::string& main_bytes);
 
 }  // namespace lambert

@@ -23,6 +23,8 @@ struct KnownExtension {
 
 constexpr KnownExtension kKnown[] = {
     {"EXT_mesh_gpu_instancing", Support::kRead},
+    {"EXT_meshopt_compression", Support::kRead},
+    {"KHR_draco_mesh_compression", Support::kRead},
     {"KHR_lights_punctual", Support::kRead},
     {"KHR_materials_anisotropy", Support::kLeftOut},
     {"KHR_materials_clearcoat", Support::kLeftOut},

@@ -59,7 +59,6 @@ absl::StatusOr<double> ReadTransmission(const tinygltf::Material& gltf, const st
 }
 
 void CountUnread(const tinygltf::Material& gltf, UnreadFeatures* unread) {
-  if (gltf.alphaMode == "BLEND") unread->Add("alpha mode BLEND", "material", "taken as opaque");
   if (gltf.extensions.count("KHR_materials_unlit") > 0) {
     unread->Add("KHR_materials_unlit", "material", "base colour taken as diffuse reflectance");
   }
@@ -100,6 +99,7 @@ absl::StatusOr<Material> ReadMaterial(const tinygltf::Material& gltf, const std:
   if (status.ok()) status = ReadLuminance(gltf, where, textures, unread, &material);
   if (!status.ok()) return status;
   material.two_sided = gltf.doubleSided;
+  material.blend = gltf.alphaMode == "BLEND";
   CountUnread(gltf, unread);
   return material;
 }

@@ -1,6 +1,14 @@
+// tinygltf is compiled here and nowhere else: the library of Draco brings another version of it
+// under the same names.
+#define TINYGLTF_IMPLEMENTATION
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_INCLUDE_STB_IMAGE
+#define TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE
 #include "radiosity/scene/gltf_parse.h"
 
 #include <exception>
+#include <optional>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"

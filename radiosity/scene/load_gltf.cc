@@ -9,10 +9,12 @@
 #include "radiosity/scene/gltf_amend.h"
 #include "radiosity/scene/gltf_check.h"
 #include "radiosity/scene/gltf_container.h"
+#include "radiosity/scene/gltf_draco.h"
 #include "radiosity/scene/gltf_extensions.h"
 #include "radiosity/scene/gltf_image.h"
 #include "radiosity/scene/gltf_material.h"
 #include "radiosity/scene/gltf_mesh.h"
+#include "radiosity/scene/gltf_meshopt.h"
 #include "radiosity/scene/gltf_node.h"
 #include "radiosity/scene/gltf_parse.h"
 #include "radiosity/scene/unread_features.h"
@@ -130,13 +132,19 @@ class MeshReader {
   MeshBudget budget_;
 };
 
-// Materials of the triangles that instances show.
-std::vector<bool> FindUsedMaterials(const tinygltf::Model& model, const Scene& scene) {
-  std::vector<bool> used(model.materials.size()), seen(model.meshes.size());
-  for (const Instance& instance : scene.instances) {
-    if (seen[instance.mesh]) continue;
-    seen[instance.mesh] = true;
-    for (const tinygltf::Primitive& primitive : model.meshes[instance.mesh].primitives) {
+// The meshes that instances show.
+std::vector<bool> FindShownMeshes(const tinygltf::Model& model, const Scene& scene) {
+  std::vector<bool> shown(model.meshes.size());
+  for (const Instance& instance : scene.instances) shown[instance.mesh] = true;
+  return shown;
+}
+
+// Materials of their triangles.
+std::vector<bool> FindUsedMaterials(const tinygltf::Model& model, const std::vector<bool>& shown) {
+  std::vector<bool> used(model.materials.size());
+  for (size_t m = 0; m < shown.size(); ++m) {
+    if (!shown[m]) continue;
+    for (const tinygltf::Primitive& primitive : model.meshes[m].primitives) {
       const int material = primitive.material;
       if (material >= 0 && material < static_cast<int>(used.size()) &&
           IsTriangleMode(primitive.mode)) {
@@ -184,11 +192,15 @@ absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& li
   UnreadFeatures unread;
   status = CheckVersionAndExtensions(*model, &unread);
   NodeWorlds worlds;
+  if (status.ok()) status = DecodeMeshopt(limits.bytes, &*model);
   if (status.ok()) status = ReadNodes(*model, limits.instances, &scene, &worlds, &unread);
+  if (!status.ok()) return status;
+  const std::vector<bool> shown = FindShownMeshes(*model, scene);
+  status = DecodeDraco(shown, limits.triangles, &*model);
   if (!status.ok()) return status;
   TextureLoader textures(*model, limits, &scene.textures);
   absl::StatusOr<std::vector<Material>> materials =
-      ReadMaterials(*model, FindUsedMaterials(*model, scene), &textures, &unread);
+      ReadMaterials(*model, FindUsedMaterials(*model, shown), &textures, &unread);
   if (!materials.ok()) return materials.status();
   scene.materials = *std::move(materials);
   status = MeshReader(*model, limits, worlds, &scene, &unread).Read();

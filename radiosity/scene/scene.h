@@ -37,6 +37,7 @@ struct Material {
   Rgb luminance;  // emissiveFactor * emissiveStrength, in the file's unit (nit)
   TextureUse luminance_texture;
   bool two_sided = false;
+  bool blend = false;  // alpha mode BLEND
   // Alpha mode MASK: where alpha times those of the reflectance texture and the vertex colours is
   // under the cutoff, there is no surface. 0: nothing is cut.
   double alpha_cutoff = 0;

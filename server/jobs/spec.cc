@@ -15,6 +15,8 @@ PatchOptions DecodePatch(const v1::PatchSpec& spec, int64_t max_patches) {
   options.emission_unit = spec.emission_unit() == v1::PatchSpec::EMISSION_UNIT_WATT
                               ? EmissionUnit::kWattPerM2PerSr
                               : EmissionUnit::kNit;
+  if (spec.has_meters_per_unit()) options.metres_per_unit = spec.meters_per_unit();
+  if (spec.blend() == v1::PatchSpec::BLEND_OMIT) options.blend = Blend::kOmit;
   if (spec.has_max_patch_count()) options.max_patches = spec.max_patch_count();
   options.max_patches = std::min(options.max_patches, max_patches);
   return options;

@@ -51,7 +51,9 @@ TEST(CommandLine, EveryOptionOfTheContractActs) {
                                 "--region",    "desk",
                                 "--region",    "floor",
                                 "--two-sided", "--emission-unit",
-                                "W/m2/sr",     "--phs-initial",
+                                "W/m2/sr",     "--scene-unit",
+                                "cm",          "--blend",
+                                "omit",        "--phs-initial",
                                 "5",           "--phs-split",
                                 "3",           "--phs-depth",
                                 "1",           "--phs-alpha1",
@@ -72,6 +74,8 @@ TEST(CommandLine, EveryOptionOfTheContractActs) {
   EXPECT_EQ(options.patch.max_edge_m, 0.25);
   EXPECT_TRUE(options.patch.two_sided);
   EXPECT_EQ(options.patch.emission_unit, EmissionUnit::kWattPerM2PerSr);
+  EXPECT_EQ(options.patch.metres_per_unit, 0.01);
+  EXPECT_EQ(options.patch.blend, Blend::kOmit);
   EXPECT_EQ(options.workers, 2);
   EXPECT_EQ(options.threads, 3);
   EXPECT_EQ(options.reference_path, "r.csv");
@@ -200,7 +204,8 @@ TEST(CommandLine, NumbersOutOfRangeAreRefusedByName) {
            {"--workers", "0"},        {"--threads", "0"},       {"--phs-initial", "2"},
            {"--phs-split", "5"},      {"--phs-depth", "9"},     {"--phs-alpha1", "-1"},
            {"--phs-sampling", "x"},   {"--phs-min-rays", "-1"}, {"--quality", "best"},
-           {"--emission-unit", "lm"}, {"--progress", "loud"}}) {
+           {"--emission-unit", "lm"}, {"--progress", "loud"},   {"--scene-unit", "km"},
+           {"--blend", "half"}}) {
     const std::string message = Bad({"bake", "a.glb", "-o", "out", flag + "=" + value});
     EXPECT_EQ(message.find(flag + ": "), 0u) << flag << "=" << value << ": " << message;
   }

@@ -9,6 +9,8 @@ TEST(Convert, OptionsComeBackAsTheyWent) {
   PatchOptions patch{.max_edge_m = 0.25,
                      .two_sided = true,
                      .emission_unit = EmissionUnit::kWattPerM2PerSr,
+                     .metres_per_unit = 0.01,
+                     .blend = Blend::kOmit,
                      .max_patches = 12345};
   SolveOptions solve;
   solve.shoot.method = Method::kPhs;
@@ -35,6 +37,8 @@ TEST(Convert, OptionsComeBackAsTheyWent) {
   EXPECT_EQ(patch_back.max_edge_m, 0.25);
   EXPECT_TRUE(patch_back.two_sided);
   EXPECT_EQ(patch_back.emission_unit, EmissionUnit::kWattPerM2PerSr);
+  EXPECT_EQ(patch_back.metres_per_unit, 0.01);
+  EXPECT_EQ(patch_back.blend, Blend::kOmit);
   EXPECT_EQ(patch_back.max_patches, 12345);
   const PyramidOptions& pyramids = solve_back.shoot.pyramids;
   EXPECT_EQ(solve_back.shoot.method, Method::kPhs);

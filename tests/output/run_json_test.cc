@@ -78,7 +78,12 @@ TEST(EncodeRunJson, AnInterruptedRunSaysSo) {
 TEST(EncodeRunJson, RadiometricRunsCountWatts) {
   RunRecord record = SomeRecord();
   record.patch_options.emission_unit = EmissionUnit::kWattPerM2PerSr;
-  EXPECT_EQ(Json::parse(EncodeRunJson(record, PictureFacts{}))["ledger"]["unit"], "W");
+  record.patch_options.metres_per_unit = 0.01;
+  record.patch_options.blend = Blend::kOmit;
+  const Json json = Json::parse(EncodeRunJson(record, PictureFacts{}));
+  EXPECT_EQ(json["ledger"]["unit"], "W");
+  EXPECT_EQ(json["options"]["metres_per_unit"], 0.01);
+  EXPECT_EQ(json["options"]["blend"], "omit");
 }
 
 TEST(EncodeRunJson, BytesThatAreNotUtf8AreReplaced) {

@@ -152,13 +152,13 @@ TEST(MakePatchMaterials, LeavesOutTexturesThatNoFactorShows) {
   scene.materials[0].reflectance_texture.texture = 0;
   scene.materials[0].luminance_texture.texture = 0;
   std::vector<Warning> warnings;
-  const auto materials = MakePatchMaterials(scene, false, &warnings);
+  const auto materials = MakePatchMaterials(scene, {}, &warnings);
   ASSERT_TRUE(materials.ok());
   EXPECT_EQ((*materials)[1].reflectance_texture.texture, -1);
   EXPECT_EQ((*materials)[1].exitance_texture.texture, -1);
   EXPECT_EQ((*materials)[0].reflectance, (Rgb{1, 1, 1}));
   scene.materials[0].alpha_cutoff = 0.5;
-  EXPECT_EQ((*MakePatchMaterials(scene, false, &warnings))[1].reflectance_texture.texture, 0)
+  EXPECT_EQ((*MakePatchMaterials(scene, {}, &warnings))[1].reflectance_texture.texture, 0)
       << "its alpha shows";
 }
 
