@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "app/bench_list.h"
+#include "app/light_options.h"
 #include "app/option_checks.h"
 #include "fmt/format.h"
 #include "radiosity/core/error.h"
@@ -83,6 +84,7 @@ void AddSceneOptions(CLI::App& command, Draft& draft) {
       ->option_text("UNIT")
       ->check(OneOf({"nit", "W/m2/sr"}))
       ->group(kScene);
+  AddLightOptions(command, draft);
 }
 
 void AddStopOptions(CLI::App& command, Draft& draft) {

@@ -13,6 +13,9 @@ namespace lambert::app {
 // SCENE_TOO_LARGE, more bytes than SceneLimits allows.
 absl::StatusOr<SceneBundle> ReadSceneBundle(const std::string& path);
 
+// Reads a file that lights a scene; SCENE_FILE_MISSING, SCENE_TOO_LARGE.
+absl::StatusOr<std::string> ReadLightFile(const std::string& path);
+
 // "rooms/office.glb" -> "office": names the files of a result.
 std::string SceneStem(const std::string& path);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "absl/status/statusor.h"
+#include "radiosity/patch/light_options.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/scene/scene.h"
 
@@ -15,6 +16,7 @@ struct PatchOptions {
   EmissionUnit emission_unit = EmissionUnit::kNit;  // unit of the file's emission; W/m2/sr: the
                                                     // solution is radiometric (W in place of lm)
   int64_t max_patches = 20'000'000;                 // more: SCENE_TOO_LARGE
+  LightOptions lights;                              // beside those of the file
   // INVALID_ARGUMENT (reason FIELD_INVALID) naming the field that is out of range.
   absl::Status Validate() const;
 };

@@ -22,6 +22,7 @@ struct KnownExtension {
 };
 
 constexpr KnownExtension kKnown[] = {
+    {"EXT_lights_ies", Support::kRead},
     {"EXT_mesh_gpu_instancing", Support::kRead},
     {"KHR_lights_punctual", Support::kRead},
     {"KHR_materials_anisotropy", Support::kLeftOut},
