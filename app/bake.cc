@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/idle_notice.h"
+#include "app/light_files.h"
 #include "app/measure.h"
 #include "app/progress.h"
 #include "app/progress_text.h"
@@ -75,7 +76,7 @@ absl::StatusOr<ExitCode> Bake::Run() {
 }
 
 absl::Status Bake::Prepare() {
-  auto bundle = ReadSceneBundle(options_.scene_path, options_.limits.bytes);
+  auto bundle = ReadLitBundle(options_.scene_path, options_);
   if (!bundle.ok()) return bundle.status();
   bundle_ = *std::move(bundle);
   if (absl::Status status = TestOutputFolder(options_.out_folder); !status.ok()) return status;

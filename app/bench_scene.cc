@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "app/light_files.h"
 #include "app/measure.h"
 #include "app/progress_text.h"
 #include "app/result.h"
@@ -95,7 +96,7 @@ absl::StatusOr<BenchResult> Bench::Run(const std::string& scene_path, const std:
 absl::Status Bench::Prepare(const std::string& scene_path, const std::string& folder) {
   result_.name = SceneStem(scene_path);
   result_.folder = folder;
-  auto bundle = ReadSceneBundle(scene_path, options_.limits.bytes);
+  auto bundle = ReadLitBundle(scene_path, options_);
   if (!bundle.ok()) return bundle.status();
   if (absl::Status status = TestOutputFolder(folder); !status.ok()) return status;
   auto loaded = LoadGltf(*bundle, options_.limits);

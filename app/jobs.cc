@@ -7,10 +7,10 @@
 #include "app/connection.h"
 #include "app/idle_notice.h"
 #include "app/job_text.h"
+#include "app/light_files.h"
 #include "app/measure.h"
 #include "app/progress.h"
 #include "app/result.h"
-#include "app/scene_files.h"
 #include "radiosity/core/error.h"
 #include "radiosity/output/write_outputs.h"
 
@@ -43,7 +43,7 @@ absl::StatusOr<RunRecord> CollectLatest(client::Client& client, const std::strin
 }  // namespace
 
 absl::StatusOr<ExitCode> RunSubmit(const Options& options, Interrupt& interrupt) {
-  auto bundle = ReadSceneBundle(options.scene_path, options.limits.bytes);
+  auto bundle = ReadLitBundle(options.scene_path, options);
   if (!bundle.ok()) return bundle.status();
   auto connection = Connection::Open(options, interrupt);
   if (!connection.ok()) return connection.status();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/bench_list.h"
+#include "app/light_options.h"
 #include "app/option_checks.h"
 #include "fmt/format.h"
 #include "radiosity/core/error.h"
@@ -135,6 +136,7 @@ void AddSceneOptions(CLI::App& command, Draft& draft) {
       ->check(OneOf({"opaque", "omit"}))
       ->group(kScene);
   AddLimitOptions(command, draft);
+  AddLightOptions(command, draft);
 }
 
 void AddStopOptions(CLI::App& command, Draft& draft) {

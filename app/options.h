@@ -50,12 +50,14 @@ struct Options {
 
   Command command = Command::kBake;
 
-  std::string scene_path;         // bake, plan, submit: a .glb or .gltf file
-  std::string job;                // watch, fetch, cancel, delete: "solveJobs/ID"
-  std::string out_folder;         // bake, fetch, bench
-  OutputFiles outputs;            // bake, fetch
-  std::string compare_path;       // compare: the table that is judged
-  std::string compare_reference;  // compare: the table that it is judged by
+  std::string scene_path;              // bake, plan, submit: a .glb or .gltf file
+  std::string sky_path;                // that patch.lights.sky is of; "": none
+  std::vector<std::string> ies_paths;  // of patch.lights.lamps
+  std::string job;                     // watch, fetch, cancel, delete: "solveJobs/ID"
+  std::string out_folder;              // bake, fetch, bench
+  OutputFiles outputs;                 // bake, fetch
+  std::string compare_path;            // compare: the table that is judged
+  std::string compare_reference;       // compare: the table that it is judged by
 
   PatchOptions patch;
   SceneLimits limits;  // of what is read here; a server has its own

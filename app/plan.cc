@@ -1,9 +1,9 @@
 #include <cstdio>
 
 #include "app/commands.h"
+#include "app/light_files.h"
 #include "app/measure.h"
 #include "app/progress_text.h"
-#include "app/scene_files.h"
 #include "app/service.h"
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
@@ -123,7 +123,7 @@ absl::StatusOr<client::PlannedScene> MakePlanned(const SceneBundle& bundle, cons
 }  // namespace
 
 absl::StatusOr<ExitCode> RunPlan(const Options& options, Interrupt& interrupt) {
-  auto bundle = ReadSceneBundle(options.scene_path, options.limits.bytes);
+  auto bundle = ReadLitBundle(options.scene_path, options);
   if (!bundle.ok()) return bundle.status();
   auto planned = MakePlanned(*bundle, options, interrupt);
   if (!planned.ok()) return planned.status();

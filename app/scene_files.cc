@@ -74,6 +74,11 @@ absl::StatusOr<SceneBundle> ReadSceneBundle(const std::string& path, int64_t max
   return bundle;
 }
 
+absl::StatusOr<std::string> ReadLightFile(const std::string& path, int64_t max_bytes) {
+  int64_t budget_bytes = max_bytes;
+  return ReadSceneFile(path, "give the path of the file", max_bytes, budget_bytes);
+}
+
 std::string SceneStem(const std::string& path) { return fs::path(path).stem().string(); }
 
 absl::Status CheckSceneIsKept(const std::string& scene_path, const std::string& out_folder) {

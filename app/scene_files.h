@@ -14,6 +14,9 @@ namespace lambert::app {
 absl::StatusOr<SceneBundle> ReadSceneBundle(const std::string& path,
                                             int64_t max_bytes = SceneLimits().bytes);
 
+// Reads a file that lights a scene; SCENE_FILE_MISSING, SCENE_TOO_LARGE.
+absl::StatusOr<std::string> ReadLightFile(const std::string& path, int64_t max_bytes);
+
 // "rooms/office.glb" -> "office": names the files of a result.
 std::string SceneStem(const std::string& path);
 

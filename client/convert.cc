@@ -45,6 +45,28 @@ void FromProto(const v1::PatchSpec& spec, PatchOptions& options) {
   if (spec.has_meters_per_unit()) options.metres_per_unit = spec.meters_per_unit();
   options.blend = spec.blend() == v1::PatchSpec::BLEND_OMIT ? Blend::kOmit : Blend::kOpaque;
   if (spec.has_max_patch_count()) options.max_patches = spec.max_patch_count();
+  options.lights.sky = spec.lights().sky();
+  options.lights.sky_illuminance_lx = spec.lights().sky_illuminance_lux();
+  options.lights.sun_azimuth_deg = spec.lights().sun_azimuth_degrees();
+  options.lights.sun_elevation_deg = spec.lights().sun_elevation_degrees();
+  options.lights.sun_illuminance_lx = spec.lights().sun_illuminance_lux();
+  options.lights.lamps.clear();
+  for (const v1::LightSpec::Lamp& lamp : spec.lights().lamps()) {
+    options.lights.lamps.push_back({lamp.file(), lamp.node()});
+  }
+}
+
+void ToProto(const LightOptions& lights, v1::LightSpec& spec) {
+  spec.set_sky(lights.sky);
+  spec.set_sky_illuminance_lux(lights.sky_illuminance_lx);
+  spec.set_sun_azimuth_degrees(lights.sun_azimuth_deg);
+  spec.set_sun_elevation_degrees(lights.sun_elevation_deg);
+  spec.set_sun_illuminance_lux(lights.sun_illuminance_lx);
+  for (const LightOptions::Lamp& lamp : lights.lamps) {
+    v1::LightSpec::Lamp* added = spec.add_lamps();
+    added->set_file(lamp.file);
+    added->set_node(lamp.node);
+  }
 }
 
 }  // namespace
@@ -60,6 +82,7 @@ v1::SolveSpec ToProto(const PatchOptions& patch, const SolveOptions& solve) {
   spec.mutable_patch()->set_blend(patch.blend == Blend::kOmit ? v1::PatchSpec::BLEND_OMIT
                                                               : v1::PatchSpec::BLEND_OPAQUE);
   spec.mutable_patch()->set_max_patch_count(patch.max_patches);
+  ToProto(patch.lights, *spec.mutable_patch()->mutable_lights());
   spec.mutable_shoot()->set_method(MethodName(solve.shoot.method));
   for (const auto& [name, value] : ChangedSettings(solve.shoot)) {
     (*spec.mutable_shoot()->mutable_settings())[name] = value;

@@ -14,6 +14,19 @@ Json RgbJson(Rgb value) { return {value.r, value.g, value.b}; }
 
 Json KnownOrNull(double estimate) { return estimate < 0 ? Json(nullptr) : Json(estimate); }
 
+Json LightsJson(const LightOptions& lights) {
+  Json lamps = Json::array();
+  for (const LightOptions::Lamp& lamp : lights.lamps) {
+    lamps.push_back({{"file", lamp.file}, {"node", lamp.node}});
+  }
+  return {{"sky", lights.sky},
+          {"sky_illuminance_lx", lights.sky_illuminance_lx},
+          {"sun_azimuth_deg", lights.sun_azimuth_deg},
+          {"sun_elevation_deg", lights.sun_elevation_deg},
+          {"sun_illuminance_lx", lights.sun_illuminance_lx},
+          {"ies", lamps}};
+}
+
 Json OptionsJson(const SolveOptions& solve, const PatchOptions& patch) {
   Json json{{"method", MethodName(solve.shoot.method)},
             {"seed", solve.seed},
@@ -27,6 +40,7 @@ Json OptionsJson(const SolveOptions& solve, const PatchOptions& patch) {
             {"emission_unit", patch.emission_unit == EmissionUnit::kNit ? "nit" : "W/m2/sr"},
             {"metres_per_unit", patch.metres_per_unit},
             {"blend", patch.blend == Blend::kOpaque ? "opaque" : "omit"},
+            {"lights", LightsJson(patch.lights)},
             {"region", solve.shoot.region}};
   for (const ShootSetting& setting : ShootSettings()) {
     std::string key = setting.name;

@@ -56,9 +56,12 @@ absl::StatusOr<Survey> SurveyScene(const Scene& scene, const PatchOptions& optio
   return survey;
 }
 
-absl::Status AddLights(const Scene& scene, const Placement& placement, PatchSet* patches) {
-  for (size_t k = 0; k < scene.lights.size(); ++k) {
-    Light light = scene.lights[k];
+absl::Status AddLights(const Scene& scene, const LightOptions& options,
+                       const Placement& placement, PatchSet* patches) {
+  const absl::StatusOr<std::vector<Light>> lights = LightsOf(scene, options);
+  if (!lights.ok()) return lights.status();
+  for (size_t k = 0; k < lights->size(); ++k) {
+    Light light = (*lights)[k];
     light.position = placement.Place(light.position);
     const Rgb i = light.strength;
     if (!IsFinite(light.position) || !IsFinite(i) || i.r < 0 || i.g < 0 || i.b < 0) {
@@ -110,7 +113,7 @@ absl::Status PatchOptions::Validate() const {
   if (max_patches < 1 || max_patches > std::numeric_limits<PatchIndex>::max()) {
     return invalid("max_patches", "give a number from 1 to 2147483647");
   }
-  return absl::OkStatus();
+  return lights.Validate();
 }
 
 absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& options) {
@@ -132,7 +135,7 @@ absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& op
   if (patches.size() == 0) return NoTriangles(builder);
   patches.origin = survey->origin;
   patches.warnings.insert(patches.warnings.begin(), warnings.begin(), warnings.end());
-  status = AddLights(scene, placement, &patches);
+  status = AddLights(scene, options.lights, placement, &patches);
   if (!status.ok()) return status;
   if (!IsFinite(EmittedFlux(patches))) {
     return SceneError("scene", "its emitted flux is too large for a number",

@@ -38,9 +38,11 @@ bool IsConvex(const PatchSet& patches) {
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     const Vec3 normal = PatchNormal(patches, i), corner = patches.corners[i][0];
     tests += static_cast<double>(places.size());
-    const bool is_lit_from_behind = std::any_of(
-        patches.lights.begin(), patches.lights.end(),
-        [&](const Light& light) { return !HasPlace(light) && Dot(light.z, normal) > 0; });
+    const bool is_lit_from_behind =
+        std::any_of(patches.lights.begin(), patches.lights.end(), [&](const Light& light) {
+          return light.kind == Light::Kind::kSky ||
+                 (light.kind == Light::Kind::kDistant && Dot(light.z, normal) > 0);
+        });
     const bool has_back =
         is_lit_from_behind || std::any_of(places.begin(), places.end(), [&](const Vec3& p) {
           return Dot(p - corner, normal) < least;

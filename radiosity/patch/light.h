@@ -15,11 +15,13 @@ namespace lambert {
 int LightCount(const PatchSet& patches);
 
 // The flux that each light sends per channel [lm]. Of a distant light: what enters the box around
-// the patches. Requires: a patch.
+// the patches; of a sky: what enters the sphere around that box. Requires: a patch.
 std::vector<Rgb> LightFlux(const PatchSet& patches);
 
 // Area of a box as parallel light sees it [m2].
 double ProjectedArea(const Bounds& box, const Vec3& direction);
+// Area of the disk that the sphere around a box is from anywhere outside [m2].
+double DiskArea(const Bounds& box);
 
 // One sample of what a light sends to a point. The mean over uniform u, v of
 //   illuminance_lx * max(0, dot(direction, normal)), where nothing stands in between,

@@ -115,6 +115,28 @@ void WriteLight(const Light& light, Writer* writer) {
   writer->Value(light.strength);
   for (const Vec3& axis : {light.x, light.y, light.z}) writer->Value(axis);
   for (double cosine : {light.cos_inner, light.cos_outer}) writer->Value(cosine);
+  if (!HasTable(light)) return;
+  const SphereGrid& grid = light.table->grid();
+  writer->Value<uint8_t>(grid.linear);
+  writer->Value<uint8_t>(grid.channels);
+  writer->Value<uint64_t>(grid.z.size());
+  writer->Value<uint64_t>(grid.turn.size());
+  writer->Value<uint64_t>(grid.values.size());
+  writer->Column(grid.z);
+  writer->Column(grid.turn);
+  writer->Column(grid.values);
+}
+
+std::shared_ptr<const SphereTable> ReadTable(Reader* reader) {
+  SphereGrid grid;
+  grid.linear = reader->Flag();
+  grid.channels = reader->Value<uint8_t>();
+  const uint64_t z = reader->Count(sizeof(double)), turn = reader->Count(sizeof(double)),
+                 values = reader->Count(sizeof(float));
+  reader->Column(z, &grid.z);
+  reader->Column(turn, &grid.turn);
+  reader->Column(values, &grid.values);
+  return reader->ok() ? SphereTable::Create(std::move(grid)).value_or(nullptr) : nullptr;
 }
 
 Light ReadLight(Reader* reader) {
@@ -125,6 +147,7 @@ Light ReadLight(Reader* reader) {
   light.strength = reader->Value<Rgb>();
   for (Vec3* axis : {&light.x, &light.y, &light.z}) *axis = reader->Value<Vec3>();
   for (double* cosine : {&light.cos_inner, &light.cos_outer}) *cosine = reader->Value<double>();
+  if (HasTable(light)) light.table = ReadTable(reader);
   return light;
 }
 
@@ -153,7 +176,8 @@ bool IsFluxLike(Rgb a) { return IsFinite(a) && a.r >= 0 && a.g >= 0 && a.b >= 0;
 bool IsUnit(const Vec3& axis) { return std::fabs(Dot(axis, axis) - 1) < 1e-6; }
 
 const char* FindFault(const Light& light) {
-  if (light.kind > Light::Kind::kDistant) return "a light is of no known kind";
+  if (light.kind > Light::Kind::kSky) return "a light is of no known kind";
+  if (HasTable(light) && light.table == nullptr) return "a table of a light cannot be";
   if (!IsFinite(light.position) || !IsFluxLike(light.strength)) {
     return "a light is not finite or is negative";
   }

@@ -1,5 +1,6 @@
 #include "radiosity/patch/patch_set.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "radiosity/patch/light.h"
@@ -41,6 +42,11 @@ std::vector<int32_t> NodesCalled(const std::vector<std::string>& node_names,
     nodes.push_back(index);
   }
   return nodes;
+}
+
+bool HasSky(const PatchSet& patches) {
+  return std::any_of(patches.lights.begin(), patches.lights.end(),
+                     [](const Light& light) { return light.kind == Light::Kind::kSky; });
 }
 
 Rgb EmittedFlux(const PatchSet& patches) {

@@ -56,6 +56,8 @@ Bounds BoundsOf(const PatchSet& patches);
 // index. None: empty.
 std::vector<int32_t> NodesCalled(const std::vector<std::string>& node_names,
                                  const std::string& name);
+// Whether one of the lights is a sky.
+bool HasSky(const PatchSet& patches);
 // Emitted flux of all patches and lights per channel [lm].
 Rgb EmittedFlux(const PatchSet& patches);
 

@@ -22,6 +22,7 @@ struct KnownExtension {
 };
 
 constexpr KnownExtension kKnown[] = {
+    {"EXT_lights_ies", Support::kRead},
     {"EXT_mesh_gpu_instancing", Support::kRead},
     {"EXT_meshopt_compression", Support::kRead},
     {"KHR_draco_mesh_compression", Support::kRead},

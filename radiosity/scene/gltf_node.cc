@@ -9,6 +9,7 @@
 #include "radiosity/scene/gltf_container.h"
 #include "radiosity/scene/gltf_extensions.h"
 #include "radiosity/scene/gltf_forest.h"
+#include "radiosity/scene/gltf_ies.h"
 #include "radiosity/scene/gltf_light.h"
 #include "radiosity/scene/gltf_transform.h"
 
@@ -73,6 +74,7 @@ class NodeWalker {
         worlds_(worlds),
         unread_(unread) {
     worlds_->resize(model.nodes.size());
+    scene_->node_axes.resize(model.nodes.size());
   }
 
   absl::Status Walk(const std::vector<int>& roots) {
@@ -86,6 +88,7 @@ class NodeWalker {
       const Transform world = parent * *local;
       if (!IsFinite(world)) return NodeError(node, "its world transform is not finite");
       (*worlds_)[node] = world;
+      scene_->node_axes[node] = Orthonormal(world);
       absl::Status status = Show(node, world);
       if (!status.ok()) return status;
       for (int child : model_.nodes[node].children) open.push_back({child, world});
@@ -103,7 +106,8 @@ class NodeWalker {
     }
     absl::Status status = gltf.mesh >= 0 ? ShowMesh(node, world) : absl::OkStatus();
     if (status.ok()) status = ShowCamera(node, world);
-    return status.ok() ? ShowLight(node, world) : status;
+    if (status.ok()) status = ShowLight(node, world);
+    return status.ok() ? ShowLamp(node) : status;
   }
 
   absl::Status ShowMesh(int node, const Transform& world) {
@@ -153,14 +157,26 @@ class NodeWalker {
     }
     const tinygltf::Light& from = model_.lights[static_cast<size_t>(*index)];
     absl::StatusOr<std::optional<Light>> light =
-        ReadLight(from, world.translation, Orthonormal(world), absl::StrCat("node ", node));
+        ReadLight(from, world.translation, scene_->node_axes[node], absl::StrCat("node ", node));
     if (!light.ok()) return light.status();
     if (!*light) {
       unread_->Add("spot and directional lights without axes", "node", "left out");
       return absl::OkStatus();
     }
+    (*light)->node = node;
     (*light)->name = ShortName(gltf.name.empty() ? from.name : gltf.name, unread_);
     scene_->lights.push_back(**std::move(light));
+    return absl::OkStatus();
+  }
+
+  absl::Status ShowLamp(int node) {
+    absl::StatusOr<std::optional<Light>> lamp =
+        ReadIesLight(model_, node, *scene_, scene_->node_axes[node], absl::StrCat("node ", node));
+    if (!lamp.ok()) return lamp.status();
+    if (!*lamp) return absl::OkStatus();
+    (*lamp)->node = node;
+    (*lamp)->name = ShortName(model_.nodes[node].name, unread_);
+    scene_->lights.push_back(**std::move(lamp));
     return absl::OkStatus();
   }
 

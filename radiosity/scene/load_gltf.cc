@@ -17,6 +17,7 @@
 #include "radiosity/scene/gltf_meshopt.h"
 #include "radiosity/scene/gltf_node.h"
 #include "radiosity/scene/gltf_parse.h"
+#include "radiosity/scene/light_files.h"
 #include "radiosity/scene/unread_features.h"
 
 namespace lambert {
@@ -190,6 +191,8 @@ absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& li
   if (!model.ok()) return model.status();
   Scene scene;
   UnreadFeatures unread;
+  status = ReadLightFiles(bundle, &scene);
+  if (!status.ok()) return status;
   status = CheckVersionAndExtensions(*model, &unread);
   NodeWorlds worlds;
   if (status.ok()) status = DecodeMeshopt(limits.bytes, &*model);
@@ -212,6 +215,16 @@ absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& li
   return scene;
 }
 
+// The array at the end of a path of names; an empty one where there is none.
+nlohmann::json ListAt(const nlohmann::json& gltf, const std::vector<const char*>& path) {
+  const nlohmann::json* at = &gltf;
+  for (const char* name : path) {
+    if (!at->is_object() || !at->contains(name)) return nlohmann::json::array();
+    at = &(*at)[name];
+  }
+  return at->is_array() ? *at : nlohmann::json::array();
+}
+
 absl::StatusOr<std::vector<std::string>> ReadExternalUris(const std::string& main_bytes) {
   absl::StatusOr<absl::string_view> text = FindJsonText(main_bytes);
   if (!text.ok()) return text.status();
@@ -220,17 +233,18 @@ absl::StatusOr<std::vector<std::string>> ReadExternalUris(const std::string& mai
     return SceneError("JSON", "it is not a glTF object", "export the file again");
   }
   std::vector<std::string> files;
-  for (const char* list : {"buffers", "images"}) {
-    const auto found = gltf.find(list);
-    if (found == gltf.end() || !found->is_array()) continue;
-    for (const nlohmann::json& item : *found) {
+  const std::vector<std::vector<const char*>> lists = {
+      {"buffers"}, {"images"}, {"extensions", "EXT_lights_ies", "lights"}};
+  for (const std::vector<const char*>& path : lists) {
+    for (const nlohmann::json& item : ListAt(gltf, path)) {
       if (!item.is_object() || !item.contains("uri") || !item["uri"].is_string()) continue;
       if (IsFallbackBuffer(item)) continue;
       const std::string uri = item["uri"].get<std::string>();
       if (absl::StartsWith(uri, "data:")) continue;
       if (!IsSafeRelativeUri(uri)) {
         return SceneError(
-            list, absl::StrCat("URI \"", Printable(uri), "\" is not a file beside the scene"),
+            path.back(),
+            absl::StrCat("URI \"", Printable(uri), "\" is not a file beside the scene"),
             "export a GLB with everything inside");
       }
       const std::string file = DecodeUri(uri);

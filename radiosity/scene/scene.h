@@ -5,12 +5,16 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "radiosity/core/rgb.h"
 #include "radiosity/core/transform.h"
 #include "radiosity/core/warning.h"
+#include "radiosity/scene/ies.h"
+#include "radiosity/scene/sphere_table.h"
 
 namespace lambert {
 
@@ -77,24 +81,33 @@ struct Camera {
   double aspect = 1.5;       // width / height; 0 where the file leaves it open
 };
 
-// A light without a surface (KHR_lights_punctual).
+// A light without a surface.
 struct Light {
   enum class Kind : uint8_t {
     kPoint = 0,    // from a place, the same all around or in a cone
     kDistant = 1,  // parallel, from outside the scene
+    kLamp = 2,     // from a place, by a table of intensity
+    kSky = 3,      // from all around the scene, by a table of luminance
   };
   std::string name;
-  Vec3 position;  // kPoint: metres, world
+  Vec3 position;  // kPoint, kLamp: metres, world
   Rgb strength;   // kPoint: intensity inside the cone [cd]; kDistant: illuminance of a surface that
-                  // faces the light [lx]
+                  // faces the light [lx]; with a table: factor of its values, in cd or nit
   Kind kind = Kind::kPoint;
-  Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // orthonormal; z: where it shines
+  Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // orthonormal; z: where it shines, or a table's pole
   // kPoint: the cone, by the cosine of the angle to z. Intensity is whole from cos_inner on, none
   // under cos_outer, and falls by the square of the part of the way in between. All around: -1, -1.
   // cos_inner may be over 1: then it is nowhere whole.
   double cos_inner = -1, cos_outer = -1;
+  std::shared_ptr<const SphereTable> table = nullptr;  // kLamp, kSky
+  int node = -1;  // that it stands at in the file; no part of a patch set
 };
-inline bool HasPlace(const Light& light) { return light.kind != Light::Kind::kDistant; }
+inline bool HasPlace(const Light& light) {
+  return light.kind == Light::Kind::kPoint || light.kind == Light::Kind::kLamp;
+}
+inline bool HasTable(const Light& light) {
+  return light.kind == Light::Kind::kLamp || light.kind == Light::Kind::kSky;
+}
 
 struct Scene {
   std::vector<Texture> textures;
@@ -104,6 +117,11 @@ struct Scene {
   std::vector<std::string> node_names;  // by node index; "" where the file gives none
   std::vector<Camera> cameras;
   std::vector<Light> lights;
+  // By node: its axes, orthonormal, and its place; none for nodes without, or not in the scene.
+  std::vector<std::optional<Transform>> node_axes;
+  // Of the files beside the scene, by name: lamps (.ies) and sky maps.
+  std::map<std::string, LampProfile> lamps;
+  std::map<std::string, std::shared_ptr<const SphereTable>> skies;
   std::vector<Warning> warnings;
 };
 

@@ -59,6 +59,11 @@ absl::StatusOr<std::vector<uint8_t>> RegionPatches(const PatchSet& patches,
 
 absl::Status ValidateFor(const PatchSet& patches, const ShootOptions& options) {
   if (absl::Status status = options.ValidateFor(patches.size()); !status.ok()) return status;
+  if (options.method == Method::kExact && HasSky(patches)) {
+    return MakeError(
+        absl::StatusCode::kInvalidArgument,
+        {"FIELD_INVALID", "method", "exact does not take a sky", "use --method pmcr, or auto"});
+  }
   if (options.method != Method::kImportance) return absl::OkStatus();
   return RegionPatches(patches, options.region).status();
 }

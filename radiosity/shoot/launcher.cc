@@ -31,6 +31,14 @@ bool HasRoom(const WorkUnit& unit) {
   return true;
 }
 
+// The quanta of a ray times its weights, rounded to the nearest.
+Long4 Weighted(Long4 flux, const Rgb& weight) {
+  for (int c = 0; c < 3; ++c) {
+    flux[c] = RoundedQuanta(static_cast<double>(flux[c]) * weight[c]);
+  }
+  return flux;
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<Launcher>> Launcher::Create(const PatchSet& patches,
@@ -124,11 +132,20 @@ absl::Status Launcher::Launch(const WorkUnit& unit, Flight& flight) const {
 void Launcher::ShootLight(const Visit& visit, RandomStream stream, Flight& flight) const {
   stream.emitter = static_cast<uint32_t>(visit.emitter);
   const RayNumbers numbers(stream, options_.sequence);
+  const LightRays& light = emitters_.LightOf(visit.emitter);
+  const auto weight = std::make_unique<Rgb[]>(RayBatch::kSlots);
   for (uint32_t ray = visit.ray_begin; ray < visit.ray_end;) {
     const uint32_t until = ray + std::min(flight.Room(), visit.ray_end - ray);
     const int slot = flight.batch().size;
-    emitters_.LightOf(visit.emitter).Append(numbers, ray, until, flight.batch());
-    flight.SetFlux(slot, RayDeal(visit.quanta, visit.ray_count), ray, until);
+    light.Append(numbers, ray, until, flight.batch(), weight.get());
+    const RayDeal deal(visit.quanta, visit.ray_count);
+    if (light.weighted()) {
+      for (int k = slot; k < flight.batch().size; ++k) {
+        flight.SetFlux(k, Weighted(deal.Of(ray + (k - slot)), weight[k]));
+      }
+    } else {
+      flight.SetFlux(slot, deal, ray, until);
+    }
     flight.LandIfFull();
     ray = until;
   }

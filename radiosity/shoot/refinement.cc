@@ -42,8 +42,15 @@ Refinement::Refinement(const PatchSet& patches, const RayScene& scene, const Sur
   }
   const Bounds box = BoundsOf(patches);
   for (const Light& light : patches.lights) {
-    const double extent = HasPlace(light) ? Cone(light.cos_inner, light.cos_outer).SolidAngle()
-                                          : ProjectedArea(box, light.z) * area_scale;
+    double extent = 0;
+    if (light.kind == Light::Kind::kPoint) {
+      extent = Cone(light.cos_inner, light.cos_outer).SolidAngle();
+    } else if (light.kind == Light::Kind::kLamp) {
+      extent = light.table->total().r / std::max(light.table->Greatest(), 1e-300);
+    } else {
+      const bool is_sky = light.kind == Light::Kind::kSky;
+      extent = (is_sky ? DiskArea(box) : ProjectedArea(box, light.z)) * area_scale;
+    }
     beams_.push_back({!HasPlace(light), static_cast<float>(extent)});
   }
 }

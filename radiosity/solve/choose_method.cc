@@ -63,7 +63,7 @@ std::string Text(const char* format, Values... values) {
 
 MethodChoice ChooseMethod(const PatchSet& patches, const SolveOptions& options) {
   const double n = patches.size(), rays = ExpectedRays(n, options);
-  if (patches.size() <= kMaxExactPatches && !IsAmbiguous(patches)) {
+  if (patches.size() <= kMaxExactPatches && !IsAmbiguous(patches) && !HasSky(patches)) {
     const double seconds = kExactSecondsPerPair * n * n;
     const bool in_time = options.max_time_s == 0 || seconds <= options.max_time_s / 2;
     if (in_time && IsConvex(patches)) {

@@ -38,8 +38,11 @@ Need ColorNeed(const PatchSet& patches) {
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     if (!IsGray(patches.reflectance[i]) || !IsGray(patches.exitance_lm_per_m2[i])) ++colored;
   }
-  const auto lights = std::count_if(patches.lights.begin(), patches.lights.end(),
-                                    [](const Light& light) { return !IsGray(light.strength); });
+  const auto lights =
+      std::count_if(patches.lights.begin(), patches.lights.end(), [](const Light& light) {
+        const bool is_colored = HasTable(light) && light.table->grid().channels > 1;
+        return is_colored || !IsGray(light.strength);
+      });
   if (colored + lights == 0) {
     // Deposits are 16 bytes for 32, visits 32 for 48.
     return {Part::kColor, "three channels", false, "all reflectances and all lights are gray",

@@ -19,6 +19,14 @@ PatchOptions DecodePatch(const v1::PatchSpec& spec, int64_t max_patches) {
   if (spec.blend() == v1::PatchSpec::BLEND_OMIT) options.blend = Blend::kOmit;
   if (spec.has_max_patch_count()) options.max_patches = spec.max_patch_count();
   options.max_patches = std::min(options.max_patches, max_patches);
+  options.lights.sky = spec.lights().sky();
+  options.lights.sky_illuminance_lx = spec.lights().sky_illuminance_lux();
+  options.lights.sun_azimuth_deg = spec.lights().sun_azimuth_degrees();
+  options.lights.sun_elevation_deg = spec.lights().sun_elevation_degrees();
+  options.lights.sun_illuminance_lx = spec.lights().sun_illuminance_lux();
+  for (const v1::LightSpec::Lamp& lamp : spec.lights().lamps()) {
+    options.lights.lamps.push_back({lamp.file(), lamp.node()});
+  }
   return options;
 }
 

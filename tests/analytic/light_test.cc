@@ -5,7 +5,9 @@
 #include <cmath>
 #include <functional>
 
+#include "radiosity/patch/build_patches.h"
 #include "radiosity/patch/light.h"
+#include "radiosity/scene/sky_map.h"
 #include "tests/analytic/seeds.h"
 #include "tests/support/scenes.h"
 
@@ -22,6 +24,17 @@ double MeanOver(const std::array<Vec3, 3>& t, const std::function<double(Vec3)>&
   return (MeanOver({t[0], a, c}, f, depth - 1) + MeanOver({a, t[1], b}, f, depth - 1) +
           MeanOver({c, b, t[2]}, f, depth - 1) + MeanOver({a, b, c}, f, depth - 1)) /
          4;
+}
+
+// 16 by 8 pixels, one of them lit, south-east and high; its colour is its own.
+std::shared_ptr<const SphereTable> Hot() {
+  SkyMap sky{16, 8, std::vector<float>(16 * 8 * 3)};
+  const int pixel = 3 * (1 * 16 + 9);
+  sky.rgb[pixel] = 3000;
+  sky.rgb[pixel + 1] = 2000;
+  sky.rgb[pixel + 2] = 500;
+  for (int k = 2; k < 16 * 4 * 3; k += 3) sky.rgb[k] += 10;  // and a blue sky
+  return *DecodeSkyMap("hot.exr", EncodeSkyMap(sky));
 }
 
 // A floor of 2 m by 2 m at height 0 that faces up, in eight patches.
@@ -121,6 +134,99 @@ TEST(LightsOverAFloor, ADistantLightCastsAShadow) {
     EXPECT_NEAR(solution.irradiance_lx[i].r, dark ? 0 : 100, dark ? 0.5 : 5) << i;
   }
   EXPECT_NEAR(solution.ledger.emitted.r, 400, 1e-9);
+}
+
+// Radiosities of a sky or a sun over an open floor: a plane has E = pi L of a uniform sky, 7/9 pi
+// L_z of an overcast one, whatever the method.
+PatchSet FloorUnder(const LightOptions& lights) {
+  PatchOptions options;
+  options.lights = lights;
+  Scene scene = Floor().Make();
+  scene.skies["hot.exr"] = Hot();
+  auto patches = BuildPatches(scene, options);
+  EXPECT_TRUE(patches.ok()) << patches.status();
+  return *std::move(patches);
+}
+
+double FloorMean(const PatchSet& patches, const Solution& s) {
+  return AreaMean(patches, s.irradiance_lx);
+}
+
+TEST(OpenFloor, HasTheIlluminanceOfItsSky) {
+  for (const char* sky : {"uniform", "overcast"}) {
+    const PatchSet patches = FloorUnder({.sky = sky, .sky_illuminance_lx = 300});
+    for (Method method : {Method::kPmcr, Method::kPhs}) {
+      ExpectTruths(patches, WithRays(method, 200000),
+                   {{sky, 300, [&](const Solution& s) { return FloorMean(patches, s); }}});
+    }
+  }
+}
+
+TEST(OpenFloor, OfASunHasTheSineOfItsElevation) {
+  const PatchSet patches =
+      FloorUnder({.sun_azimuth_deg = 200, .sun_elevation_deg = 30, .sun_illuminance_lx = 1000});
+  ExpectTruths(patches, WithRays(Method::kPmcr, 100000),
+               {{"sun", 500, [&](const Solution& s) { return FloorMean(patches, s); }}});
+}
+
+// One pixel is lit: a sun of its solid angle. Each channel keeps its own flux.
+TEST(OpenFloor, OfASkyWithOneHotPixelIsLitByIt) {
+  const PatchSet patches = FloorUnder({.sky = "hot.exr"});
+  const Rgb truth = Hot()->CosineTotal();
+  std::vector<Truth> truths;
+  for (int c = 0; c < 3; ++c) {
+    truths.push_back({"hot pixel", truth[c], [&patches, c](const Solution& s) {
+                        double sum = 0;
+                        for (const Rgb& lx : s.irradiance_lx) sum += lx[c];
+                        return sum / patches.size();  // patches of equal area
+                      }});
+  }
+  ExpectTruths(patches, WithRays(Method::kPmcr, 200000), truths);
+}
+
+// A black box with an opening in its lid, under a uniform sky: the mean over the floor is the form
+// factor from the floor to the opening, here two equal parallel squares, 2 m by 2 m and 2 m apart.
+TEST(DaylightFactor, UnderAnOpeningIsAFormFactor) {
+  Scene scene = SceneMaker()
+                    .Quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, {{}, {}}, 2)
+                    .Quad({-1, 0, -1}, {2, 0, 0}, {0, 2, 0}, {{}, {}, true})
+                    .Quad({-1, 0, 1}, {2, 0, 0}, {0, 2, 0}, {{}, {}, true})
+                    .Quad({-1, 0, -1}, {0, 0, 2}, {0, 2, 0}, {{}, {}, true})
+                    .Quad({1, 0, -1}, {0, 0, 2}, {0, 2, 0}, {{}, {}, true})
+                    .Make();
+  PatchOptions options;
+  options.lights = {.sky = "uniform", .sky_illuminance_lx = 1000};
+  const PatchSet patches = *BuildPatches(scene, options);
+  const double factor = 0.19982489569838746;  // Howell C-11 for X = Y = 1
+  const auto floor = [&](const Solution& s) {
+    double sum = 0, area = 0;
+    for (PatchIndex i = 0; i < patches.size(); ++i) {
+      if (patches.source[i].node != 0) continue;
+      sum += s.irradiance_lx[i].r * patches.area_m2[i];
+      area += patches.area_m2[i];
+    }
+    return sum / area;
+  };
+  ExpectTruths(patches, WithRays(Method::kPmcr, 400000), {{"floor", 1000 * factor, floor}});
+}
+
+// A lamp of 100 cd all around equals a point light; a cosine lamp has E = I cos^4 / h^2.
+TEST(LampsOverAFloor, AreWhatTheirTablesSay) {
+  Light lamp{"", {0.2, 1, 0.1}, {1, 1, 1}, Light::Kind::kLamp};
+  lamp.x = {1, 0, 0};
+  lamp.y = {0, 0, 1};
+  lamp.z = {0, -1, 0};
+  lamp.table = *SphereTable::Create({true, 1, {-1, 1}, {0, 1}, {100, 100, 100, 100}});
+  ExpectIlluminance(WithLight(lamp), [](Vec3 p) {
+    const double r = Length(Vec3{0.2, 1, 0.1} - p);
+    return 100 / (r * r * r);
+  });
+  // Linear in z: the cosine itself.
+  lamp.table = *SphereTable::Create({true, 1, {0, 1}, {0, 1}, {0, 0, 100, 100}});
+  ExpectIlluminance(WithLight(lamp), [](Vec3 p) {
+    const double r = Length(Vec3{0.2, 1, 0.1} - p);
+    return 100 / (r * r * r * r);
+  });
 }
 
 }  // namespace

@@ -12,6 +12,12 @@ TEST(Convert, OptionsComeBackAsTheyWent) {
                      .metres_per_unit = 0.01,
                      .blend = Blend::kOmit,
                      .max_patches = 12345};
+  patch.lights = {.sky = "overcast",
+                  .sky_illuminance_lx = 5000,
+                  .sun_azimuth_deg = 200,
+                  .sun_elevation_deg = 30,
+                  .sun_illuminance_lx = 9e4,
+                  .lamps = {{"a.ies", "lamp"}, {"b.ies", "7"}}};
   SolveOptions solve;
   solve.shoot.method = Method::kPhs;
   solve.shoot.pyramids = {.initial = 7,
@@ -40,6 +46,12 @@ TEST(Convert, OptionsComeBackAsTheyWent) {
   EXPECT_EQ(patch_back.metres_per_unit, 0.01);
   EXPECT_EQ(patch_back.blend, Blend::kOmit);
   EXPECT_EQ(patch_back.max_patches, 12345);
+  EXPECT_EQ(patch_back.lights.sky, "overcast");
+  EXPECT_EQ(patch_back.lights.sky_illuminance_lx, 5000);
+  EXPECT_EQ(patch_back.lights.sun_azimuth_deg, 200);
+  EXPECT_EQ(patch_back.lights.sun_elevation_deg, 30);
+  EXPECT_EQ(patch_back.lights.sun_illuminance_lx, 9e4);
+  EXPECT_EQ(patch_back.lights.lamps, patch.lights.lamps);
   const PyramidOptions& pyramids = solve_back.shoot.pyramids;
   EXPECT_EQ(solve_back.shoot.method, Method::kPhs);
   EXPECT_EQ(pyramids.initial, 7);

@@ -15,6 +15,9 @@ PatchSet Everything() {
                     .LookFrom({0.5, 1, 2.5}, {0.5, 1, 0})
                     .Make();
   scene.warnings.push_back({"FEATURE_NOT_READ", "2 nodes have a skin"});
+  Light sky{"sky", {}, {1, 1, 1}, Light::Kind::kSky};
+  sky.table = *SphereTable::Create({false, 3, {-1, 1}, {0, 1}, {1, 2, 3}});
+  scene.lights.push_back(sky);
   return PatchesOf(scene);
 }
 
@@ -27,7 +30,8 @@ TEST(PatchCodec, DecodingGivesBackWhatWasEncoded) {
   EXPECT_EQ(decoded->source, patches.source);
   EXPECT_EQ(decoded->warnings, patches.warnings);
   EXPECT_EQ(decoded->cameras.size(), 1u);
-  EXPECT_EQ(decoded->lights.size(), 1u);
+  EXPECT_EQ(decoded->lights.size(), 2u);
+  EXPECT_EQ(decoded->lights[1].table->grid().values, patches.lights[1].table->grid().values);
   EXPECT_EQ(EncodePatchSet(*decoded), bytes);
 }
 

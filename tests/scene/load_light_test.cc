@@ -1,10 +1,13 @@
 // Lights of glTF files, and those beside them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "absl/strings/escaping.h"
 #include "radiosity/core/error.h"
 #include "radiosity/scene/load_gltf.h"
+#include "radiosity/scene/sky_map.h"
 #include "tests/scene/gltf_document.h"
 
 namespace lambert {
@@ -73,6 +76,75 @@ TEST(LoadGltf, LightsThatCannotBeAreRefusedAndOnesWithoutAxesLeftOut) {
   EXPECT_TRUE(flat->lights.empty());
   EXPECT_TRUE(Mentions(*flat, "spot and directional lights without axes (1 node)"));
   EXPECT_EQ(load({{"type", "point"}}, 0)->lights.size(), 1u);
+}
+
+constexpr char kLamp[] =
+    "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 0\n0 180\n0\n50 50\n";
+
+// A node with lamp 0 of a list of one.
+GltfDocument WithLamp(const nlohmann::json& lamp, const nlohmann::json& own) {
+  GltfDocument document;
+  document.json["extensions"]["EXT_lights_ies"]["lights"] = {lamp};
+  document.json["extensionsUsed"] = {"EXT_lights_ies"};
+  document.json["nodes"].push_back(
+      {{"translation", {1, 2, 3}}, {"extensions", {{"EXT_lights_ies", own}}}});
+  document.json["scenes"][0]["nodes"] = {0, 1};
+  return document;
+}
+
+TEST(LoadGltf, LampsByTheirPhotometricFilesStandAtTheirNodes) {
+  GltfDocument in_view = WithLamp({}, {{"light", 0}, {"multiplier", 2}, {"color", {1, 0.5, 3}}});
+  in_view.json["extensions"]["EXT_lights_ies"]["lights"][0] = {
+      {"bufferView", in_view.AddViewBytes(kLamp)}};
+  const GltfDocument in_uri =
+      WithLamp({{"uri", "data:application/x-ies-lm-63;base64," + absl::Base64Escape(kLamp)}},
+               {{"light", 0}});
+  for (const absl::StatusOr<Scene>& scene : {in_view.Load(), in_uri.Load()}) {
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    ASSERT_EQ(scene->lights.size(), 1u);
+    const Light& lamp = scene->lights[0];
+    EXPECT_EQ(lamp.kind, Light::Kind::kLamp);
+    EXPECT_EQ(lamp.position, (Vec3{1, 2, 3}));
+    EXPECT_EQ(lamp.z, (Vec3{0, 0, -1}));
+    EXPECT_EQ(lamp.table->Value({0, 0, 1}).r, 50);
+  }
+  EXPECT_EQ(in_view.Load()->lights[0].strength, (Rgb{2, 1, 2}));
+}
+
+TEST(LoadGltf, LampsThatCannotBeReadAreRefused) {
+  const auto refused = [](const nlohmann::json& lamp, const nlohmann::json& own) {
+    return ReasonOf(WithLamp(lamp, own).Load().status()) == "SCENE_INVALID";
+  };
+  EXPECT_TRUE(refused({{"uri", "gone.ies"}}, {{"light", 0}}));
+  EXPECT_TRUE(refused({{"uri", "data:,plain"}}, {{"light", 0}}));
+  EXPECT_TRUE(refused({{"uri", "data:;base64,AAAA"}}, {{"light", 0}}));
+  EXPECT_TRUE(refused({{"bufferView", 99}}, {{"light", 0}}));
+  EXPECT_TRUE(refused({{"name", "nothing"}}, {{"light", 0}}));
+  EXPECT_TRUE(refused({{"uri", "a.ies"}}, {{"light", 7}}));
+  EXPECT_TRUE(refused({{"uri", "a.ies"}}, {{"light", "x"}}));
+}
+
+TEST(ListExternalFiles, NamesTheFilesOfLamps) {
+  const GltfDocument document = WithLamp({{"uri", "lamps/a.ies"}}, {{"light", 0}});
+  const auto files = ListExternalFiles("room.gltf", document.json.dump());
+  ASSERT_TRUE(files.ok()) << files.status();
+  EXPECT_NE(std::find(files->begin(), files->end(), "lamps/a.ies"), files->end());
+}
+
+TEST(LoadGltf, LampsAndSkiesBesideTheSceneAreRead) {
+  const GltfDocument document;
+  SceneBundle bundle{"room.gltf", document.Glb(), {}};
+  bundle.files["a.IES"] = kLamp;
+  bundle.files["sky.exr"] = EncodeSkyMap({1, 1, {1, 2, 3}});
+  const absl::StatusOr<Scene> scene = LoadGltf(bundle);
+  ASSERT_TRUE(scene.ok()) << scene.status();
+  EXPECT_EQ(scene->lamps.count("a.IES"), 1u);
+  EXPECT_EQ(scene->skies.count("sky.exr"), 1u);
+  EXPECT_TRUE(scene->node_axes[0].has_value());
+  bundle.files["b.ies"] = "no lamp";
+  const absl::Status refused = LoadGltf(bundle).status();
+  EXPECT_EQ(ReasonOf(refused), "SCENE_INVALID");
+  EXPECT_NE(refused.message().find("b.ies"), std::string::npos) << refused;
 }
 
 }  // namespace

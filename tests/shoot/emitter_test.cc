@@ -290,9 +290,11 @@ TEST_F(EmitterTest, RaysDoNotDependOnHowTheirRangeIsCut) {
   const SphericalTriangle pyramid = Hemisphere(4, 4, 1).pyramid(5);
   const RandomStream stream{1, 2, 3, 4};
   alignas(64) float cosine[RayBatch::kSlots];
+  const auto weight = std::make_unique<Rgb[]>(RayBatch::kSlots);
   const auto append = [&](int kind, uint32_t begin, uint32_t end, RayBatch& batch) {
     if (kind == 0) AppendCosineRays(frame, stream, begin, end, batch);
-    if (kind == 1) emitters_->LightOf(patches_->size()).Append(stream, begin, end, batch);
+    if (kind == 1)
+      emitters_->LightOf(patches_->size()).Append(stream, begin, end, batch, weight.get());
     if (kind == 2) AppendSolid(*emitters_, pyramid, stream, begin, end, batch, cosine);
     if (kind == 3) AppendProjected(*emitters_, pyramid, stream, begin, end, batch);
     if (kind == 4) AppendGrid(*emitters_, 8, 5, stream, begin, end, batch);

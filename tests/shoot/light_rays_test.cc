@@ -22,10 +22,11 @@ class LightRaysTest : public testing::Test {
   void ForRays(const Light& light, Use use) {
     const LightRays rays(light, BoundsOf(patches_), *scene_);
     auto batch = std::make_unique<RayBatch>();
+    const auto weight = std::make_unique<Rgb[]>(RayBatch::kSlots);
     for (uint32_t ray = 0; ray < kRays; ray += RayBatch::kCapacity) {
       const uint32_t end = std::min<uint32_t>(kRays, ray + RayBatch::kCapacity);
       batch->size = 0;
-      rays.Append(RandomStream{4, 99, 1, 2}, ray, end, *batch);
+      rays.Append(RandomStream{4, 99, 1, 2}, ray, end, *batch, weight.get());
       ASSERT_EQ(batch->size, static_cast<int>(end - ray));
       for (int k = 0; k < batch->size; ++k) {
         use(Vec3{batch->origin_x[k], batch->origin_y[k], batch->origin_z[k]},
