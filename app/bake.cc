@@ -16,6 +16,7 @@
 #include "fmt/format.h"
 #include "radiosity/core/error.h"
 #include "radiosity/output/convergence.h"
+#include "radiosity/output/sensors.h"
 #include "radiosity/output/write_outputs.h"
 
 namespace lambert::app {
@@ -44,6 +45,8 @@ class Bake {
   absl::Status LearnScene(const std::string& job);
   absl::Status Log(const Progress& progress, const Solution* solution);
   absl::StatusOr<ExitCode> Finish(const client::Job& job);
+  // The files of the result; one that is stopped by hand is written without a final gather.
+  absl::Status Write(const client::Job& job, RunRecord& record);
   void WarnOnce(const std::vector<Warning>& warnings);
   void Mark(const std::string& what);
   void CountWorkers(RunRecord& record);
@@ -82,6 +85,9 @@ absl::Status Bake::Prepare() {
   if (absl::Status status = TestOutputFolder(options_.out_folder); !status.ok()) return status;
   absl::Status kept = CheckSceneIsKept(options_.scene_path, options_.out_folder);
   if (!kept.ok()) return kept;
+  if (!options_.sensors_path.empty()) {
+    if (auto sensors = ReadSensors(options_.sensors_path); !sensors.ok()) return sensors.status();
+  }
   auto measurer = Measurer::Create(options_.reference_path, options_.regions);
   if (!measurer.ok()) return measurer.status();
   measurer_ = *std::move(measurer);
@@ -196,12 +202,27 @@ absl::StatusOr<ExitCode> Bake::Finish(const client::Job& job) {
   record->convergence = rows_;
   record->timings_s = timings_s_;
   CountWorkers(*record);
-  if (absl::Status status = WriteOutputs(options_.out_folder, *record, options_.outputs);
-      !status.ok()) {
-    return status;
-  }
+  if (absl::Status status = Write(job, *record); !status.ok()) return status;
   PrintSummary(job, *record, options_.out_folder, options_.json);
   return ExitCodeOf(job);
+}
+
+absl::Status Bake::Write(const client::Job& job, RunRecord& record) {
+  client::Client& client = *service_.client;
+  const auto say = [this](const std::string& line) { printer_.Stage(line); };
+  record.final_gather_rays = options_.outputs.NeedPicture() ? options_.final_gather_rays : 0;
+  interrupt_.OnFirst([&client] { client.Abort(); });
+  absl::Status status = AddSensors(client, job, options_, say, record);
+  if (status.ok()) {
+    status = WriteOutputs(
+        options_.out_folder, record, options_.outputs,
+        MakeGather(client, job, record.final_gather_rays, record.plan.options.seed, say));
+  }
+  interrupt_.OnFirst(nullptr);
+  if (ReasonOf(status) != "INTERRUPTED") return status;
+  printer_.Note("what is not gathered yet is left out");
+  record.final_gather_rays = 0;
+  return WriteOutputs(options_.out_folder, record, options_.outputs);
 }
 
 void Bake::WarnOnce(const std::vector<Warning>& warnings) {

@@ -322,9 +322,7 @@ absl::Status Parser::CheckComplete() const {
 absl::StatusOr<ParsedLine> Parser::Finish(const Settings& settings) {
   draft_.options.command = chosen_->command;
   // A number beats a name from the same source; any source beats those under it.
-  if (!draft_.quality.empty() && LayerOf("quality", settings) > LayerOf("max-error", settings)) {
-    draft_.options.solve.max_error = QualityError(draft_.quality);
-  }
+  SettleQuality(draft_, LayerOf("quality", settings) > LayerOf("max-error", settings));
   if (draft_.options.solve.shoot.method == Method::kImportance ||
       chosen_->command == Command::kBench) {
     draft_.options.solve.shoot.region = draft_.options.regions;

@@ -116,7 +116,13 @@ absl::StatusOr<ExitCode> RunFetch(const Options& options, Interrupt& interrupt) 
   for (const ConvergenceRow& row : record->convergence) {
     if (absl::Status status = log->Append(row); !status.ok()) return status;
   }
-  if (absl::Status status = WriteOutputs(options.out_folder, *record, options.outputs);
+  const auto say = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
+  absl::Status sensed = AddSensors(client, job, options, say, *record);
+  if (!sensed.ok()) return sensed;
+  record->final_gather_rays = options.outputs.NeedPicture() ? options.final_gather_rays : 0;
+  const GatherFunction gather =
+      MakeGather(client, job, record->final_gather_rays, record->plan.options.seed, say);
+  if (absl::Status status = WriteOutputs(options.out_folder, *record, options.outputs, gather);
       !status.ok()) {
     return status;
   }

@@ -87,8 +87,13 @@ const std::vector<std::string>& OptionsOfThisProcess() {
   return names;
 }
 
-double QualityError(const std::string& quality) {
-  return quality == "preview" ? 0.1 : quality == "draft" ? 0.03 : 0.01;
+void SettleQuality(Draft& draft, bool counts_for_error) {
+  const std::string& quality = draft.quality;
+  if (!quality.empty() && counts_for_error) {
+    draft.options.solve.max_error = quality == "preview" ? 0.1 : quality == "draft" ? 0.03 : 0.01;
+  }
+  const int rays = quality == "final" ? 64 : 0;
+  draft.options.final_gather_rays = draft.final_gather_rays < 0 ? rays : draft.final_gather_rays;
 }
 
 void AddSceneOptions(CLI::App& command, Draft& draft) {
@@ -254,6 +259,21 @@ void AddOutputOptions(CLI::App& command, Draft& draft) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(OneOf({"csv", "glb", "exr", "png", "report"}));
+  command
+      .add_option("--final-gather", draft.final_gather_rays,
+                  "gather light at each pixel and vertex, rays a point; 0: none (0; 64 at "
+                  "--quality final)")
+      ->option_text("RAYS")
+      ->transform(CountFrom(0, kMaxGatherRays));
+  command
+      .add_option("--sensors", draft.options.sensors_path,
+                  "points or grids (.csv, .json) where illuminance is gathered: sensors.csv, .json")
+      ->option_text("FILE");
+  command
+      .add_option("--work-plane", draft.options.work_plane_m,
+                  "a grid of sensors over each floor, so many metres above it (EN 12464-1)")
+      ->option_text("HEIGHT")
+      ->check(NumberFrom(0));
 }
 
 void AddProgressOption(CLI::App& command, Draft& draft) {
@@ -283,7 +303,8 @@ void AddJsonOption(CLI::App& command, Draft& draft) {
 
 void AddBenchOptions(CLI::App& command, Draft& draft) {
   BenchOptions& bench = draft.options.bench;
-  RemoveOptions(command, {"SCENE", "--outputs", "--method", "--max-error", "--quality"});
+  RemoveOptions(command, {"SCENE", "--outputs", "--final-gather", "--sensors", "--work-plane",
+                          "--method", "--max-error", "--quality"});
   for (const char* budget : {"--max-rays", "--max-time"}) command.get_option(budget)->group(kBench);
   command.add_option("SCENE", bench.scenes, ".glb or .gltf files; several get a folder each")
       ->option_text("(required)")

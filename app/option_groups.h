@@ -13,7 +13,8 @@ namespace lambert::app {
 // What the parser fills: the options, and what is settled only when all sources are known.
 struct Draft {
   Options options;
-  std::string quality;  // "" or preview, draft, final: a wanted error by name
+  std::string quality;         // "" or preview, draft, final: a wanted error by name
+  int final_gather_rays = -1;  // < 0: what the quality says
 };
 
 void AddSceneOptions(CLI::App& command, Draft& draft);    // SCENE, --max-edge, limits, ...
@@ -33,7 +34,8 @@ void AddBenchOptions(CLI::App& command, Draft& draft);
 // Names, without dashes, of options that decide nothing where a server does the work.
 const std::vector<std::string>& OptionsOfThisProcess();
 
-// The wanted error that a --quality stands for. Requires: one of preview, draft, final.
-double QualityError(const std::string& quality);
+// Puts what a --quality stands for where no number was given: the rays of a final gather and, where
+// the name counts for it, the wanted error.
+void SettleQuality(Draft& draft, bool counts_for_error);
 
 }  // namespace lambert::app

@@ -56,6 +56,9 @@ struct Options {
   std::string job;                     // watch, fetch, cancel, delete: "solveJobs/ID"
   std::string out_folder;              // bake, fetch, bench
   OutputFiles outputs;                 // bake, fetch
+  int final_gather_rays = 0;           // bake, fetch: a point; 0: none
+  std::string sensors_path;            // bake, fetch: a file of sensors; "": none
+  double work_plane_m = 0;             // bake, fetch: height of a work plane over each floor; 0: none
   std::string compare_path;            // compare: the table that is judged
   std::string compare_reference;       // compare: the table that it is judged by
 

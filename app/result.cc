@@ -4,11 +4,13 @@
 #include <filesystem>
 
 #include "app/measures_text.h"
+#include "app/progress.h"
 #include "app/progress_text.h"
 #include "app/scene_files.h"
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
 #include "radiosity/output/output_file.h"
+#include "radiosity/output/sensors.h"
 
 namespace lambert::app {
 namespace {
@@ -17,8 +19,8 @@ std::vector<std::string> ResultFiles(const RunRecord& record, const std::string&
   std::vector<std::string> files;
   for (const std::string& name :
        {std::string("report.html"), record.name + ".png", record.name + ".glb",
-        record.name + ".exr", std::string("patches.csv"), std::string("convergence.csv"),
-        std::string("run.json")}) {
+        record.name + ".exr", std::string("patches.csv"), std::string("sensors.csv"),
+        std::string("sensors.json"), std::string("convergence.csv"), std::string("run.json")}) {
     const auto path = std::filesystem::path(folder) / name;
     std::error_code error;
     if (std::filesystem::exists(path, error)) files.push_back(path.string());
@@ -98,6 +100,42 @@ absl::StatusOr<RunRecord> CollectRecord(client::Client& client, const client::Jo
   record.versions = {{"lambert", LAMBERT_VERSION}};
   record.unit_version = job.unit_version;
   return record;
+}
+
+GatherFunction MakeGather(client::Client& client, const client::Job& job, int rays, uint64_t seed,
+                          std::function<void(const std::string&)> say) {
+  if (rays == 0) return nullptr;
+  return [&client, name = job.name, options = GatherOptions{rays, seed},
+          say = std::move(say)](const GatherPoints& points) {
+    say(fmt::format("gathering at {} points", points.size()));
+    double said_at_s = MonotonicSeconds();
+    return client.Gather(name, points, options, [&](size_t done, size_t total) {
+      if (MonotonicSeconds() - said_at_s < 1) return;
+      said_at_s = MonotonicSeconds();
+      say(fmt::format("gathered at {} of {} points", done, total));
+    });
+  };
+}
+
+absl::Status AddSensors(client::Client& client, const client::Job& job, const Options& options,
+                        std::function<void(const std::string&)> say, RunRecord& record) {
+  std::vector<SensorGrid> grids;
+  if (!options.sensors_path.empty()) {
+    auto read = ReadSensors(options.sensors_path);
+    if (!read.ok()) return read.status();
+    grids = *std::move(read);
+  }
+  if (options.work_plane_m > 0) {
+    auto planes = WorkPlanes(*record.patches, options.work_plane_m);
+    if (!planes.ok()) return planes.status();
+    grids.insert(grids.end(), planes->begin(), planes->end());
+  }
+  if (grids.empty()) return absl::OkStatus();
+  absl::Status gathered = GatherSensors(
+      *record.patches,
+      MakeGather(client, job, kSensorRays, record.plan.options.seed, std::move(say)), grids);
+  if (gathered.ok()) record.sensors = std::move(grids);
+  return gathered;
 }
 
 absl::StatusOr<ExitCode> ExitCodeOf(const client::Job& job) {

@@ -1,14 +1,18 @@
 // The result of a job: collected from the service, written to a folder, summed up.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "app/exit.h"
+#include "app/options.h"
 #include "client/client.h"
 #include "client/job.h"
+#include "radiosity/gather/gather_points.h"
 #include "radiosity/output/run_record.h"
 
 namespace lambert::app {
@@ -22,6 +26,16 @@ absl::Status TestOutputFolder(const std::string& folder);
 // has a snapshot.
 absl::StatusOr<RunRecord> CollectRecord(client::Client& client, const client::Job& job,
                                         std::shared_ptr<const PatchSet> patches);
+
+// Gathers from the job's newest snapshot on the service, `rays` a point; `say` is told of the
+// progress, a line a second at most. rays == 0: a function that is null.
+GatherFunction MakeGather(client::Client& client, const client::Job& job, int rays, uint64_t seed,
+                          std::function<void(const std::string&)> say);
+
+// Gathers at the sensors that the options name, into `record`. SENSORS_INVALID, FILE_NOT_FOUND, and
+// what a gather fails with.
+absl::Status AddSensors(client::Client& client, const client::Job& job, const Options& options,
+                        std::function<void(const std::string&)> say, RunRecord& record);
 
 // What an ended job means for the command that waited for it: an error for a failed one,
 // kInterrupted for a cancelled one, kBudgetSpent where a wanted error was not reached.

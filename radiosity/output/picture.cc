@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace lambert {
 namespace {
@@ -10,8 +12,12 @@ constexpr int kSubPixels = 4;          // 4 x 4 rays where neighbouring pixels d
 constexpr double kVisibleStep = 0.02;  // of the display's range: a smaller one needs no rays
 constexpr Rgb kBackground{0.006, 0.007, 0.008};  // display value: near black, told from true black
 
+constexpr double kSameSurface = 0.94;  // cosine between normals, and of the way along the surface
+
 struct Sample {
   PatchIndex patch = kNoPatch;
+  Vec3 position;  // relative to the patch set's origin
+  std::array<double, 3> weights{};
   Rgb radiosity, irradiance, std_error, emitted;
 };
 
@@ -30,18 +36,50 @@ class Painter {
     const View::Ray ray = view_.RayThrough(x, y);
     const PictureHit hit = scene_.Cast(ray.origin, ray.direction);
     if (hit.patch == kNoPatch) return {};
-    const double weights[3] = {1 - hit.u - hit.v, hit.u, hit.v};
     Sample sample;
     sample.patch = hit.patch;
+    sample.weights = {std::max(1 - hit.u - hit.v, 0.0), std::max(hit.u, 0.0), std::max(hit.v, 0.0)};
+    Rgb irradiance;
     for (int corner = 0; corner < 3; ++corner) {
-      sample.irradiance = sample.irradiance +
-                          corner_irradiance_lx_[hit.patch][corner] * std::max(weights[corner], 0.0);
+      const double weight = sample.weights[corner];
+      sample.position = sample.position + patches_.corners[hit.patch][corner] * weight;
+      irradiance = irradiance + corner_irradiance_lx_[hit.patch][corner] * weight;
     }
     sample.emitted = patches_.exitance_lm_per_m2[hit.patch];
-    sample.radiosity = sample.emitted + patches_.reflectance[hit.patch] * sample.irradiance;
     sample.std_error = solution_.std_error_lm_per_m2[hit.patch];
+    Light(irradiance, sample);
     return sample;
   }
+
+  // Gives a sample another irradiance. Requires: it is of a patch.
+  void Light(Rgb irradiance_lx, Sample& sample) const {
+    sample.irradiance = irradiance_lx;
+    sample.radiosity = sample.emitted + patches_.reflectance[sample.patch] * irradiance_lx;
+  }
+
+  // Gives the sample of a pixel what was gathered at the nearest middle on its surface.
+  void LightLikeNeighbours(int x, int y, const Picture& picture, Sample& sample) const {
+    if (gathered_.empty() || sample.patch == kNoPatch) return;
+    const Vec3 normal = PatchNormal(patches_, sample.patch);
+    double nearest2 = std::numeric_limits<double>::infinity();
+    for (int row = std::max(y - 1, 0); row <= std::min(y + 1, picture.height - 1); ++row) {
+      for (int column = std::max(x - 1, 0); column <= std::min(x + 1, picture.width - 1);
+           ++column) {
+        const Sample& middle = gathered_[static_cast<size_t>(row) * picture.width + column];
+        if (middle.patch == kNoPatch) continue;
+        const Vec3 way = middle.position - sample.position;
+        const double distance2 = Dot(way, way), rise = Dot(way, normal);
+        if (distance2 >= nearest2 || rise * rise > (1 - kSameSurface) * distance2 ||
+            Dot(PatchNormal(patches_, middle.patch), normal) < kSameSurface) {
+          continue;
+        }
+        nearest2 = distance2;
+        Light(middle.irradiance, sample);
+      }
+    }
+  }
+
+  void SetGathered(std::vector<Sample> middles) { gathered_ = std::move(middles); }
 
  private:
   const View& view_;
@@ -49,6 +87,7 @@ class Painter {
   const RayScene& scene_;
   const Solution& solution_;
   const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx_;
+  std::vector<Sample> gathered_;  // of the middles; empty: corner irradiance is all there is
 };
 
 Rgb Display(const Sample& sample, const Exposure& exposure) {
@@ -67,24 +106,30 @@ void SetSize(const View& view, int longer_side, Picture& picture) {
   picture.patch.resize(pixels, kNoPatch);
 }
 
-// One ray through the middle of every pixel, and the exposure from what they see where none is
-// given.
-void DrawMiddles(const Painter& painter, const std::optional<Exposure>& exposure,
-                 Picture& picture) {
-  std::vector<Rgb> reflected, emitted;
-  std::vector<Sample> samples(picture.patch.size());
+// One ray through the middle of every pixel.
+std::vector<Sample> SeeMiddles(const Painter& painter, const Picture& picture) {
+  std::vector<Sample> samples;
+  samples.reserve(picture.patch.size());
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
-      const size_t pixel = static_cast<size_t>(y) * picture.width + x;
-      const Sample& sample = samples[pixel] =
-          painter.At((x + 0.5) / picture.width, (y + 0.5) / picture.height);
-      picture.patch[pixel] = sample.patch;
-      picture.radiosity_lm_per_m2[pixel] = sample.radiosity;
-      picture.irradiance_lx[pixel] = sample.irradiance;
-      picture.std_error_lm_per_m2[pixel] = sample.std_error;
-      reflected.push_back(sample.radiosity - sample.emitted);
-      emitted.push_back(sample.emitted);
+      samples.push_back(painter.At((x + 0.5) / picture.width, (y + 0.5) / picture.height));
     }
+  }
+  return samples;
+}
+
+// Fills the picture with them; the exposure is from what they see where none is given.
+void DrawMiddles(const std::vector<Sample>& samples, const std::optional<Exposure>& exposure,
+                 Picture& picture) {
+  std::vector<Rgb> reflected, emitted;
+  for (size_t pixel = 0; pixel < samples.size(); ++pixel) {
+    const Sample& sample = samples[pixel];
+    picture.patch[pixel] = sample.patch;
+    picture.radiosity_lm_per_m2[pixel] = sample.radiosity;
+    picture.irradiance_lx[pixel] = sample.irradiance;
+    picture.std_error_lm_per_m2[pixel] = sample.std_error;
+    reflected.push_back(sample.radiosity - sample.emitted);
+    emitted.push_back(sample.emitted);
   }
   picture.exposure = exposure ? *exposure : ChooseExposure(reflected, emitted);
   for (size_t pixel = 0; pixel < samples.size(); ++pixel) {
@@ -126,15 +171,25 @@ void RefinePixel(const Painter& painter, int x, int y, Picture& picture) {
     // Columns are shifted from row to row, so that nearly upright edges meet all sub-columns.
     const int row = sub / kSubPixels, column = sub % kSubPixels;
     const double shift = (row + 0.5) / kSubPixels;
-    const Sample sample =
+    Sample sample =
         painter.At((x + (column + shift) / kSubPixels) / picture.width,
                    (y + (row + (column + 0.5) / kSubPixels) / kSubPixels) / picture.height);
+    painter.LightLikeNeighbours(x, y, picture, sample);
     radiosity = radiosity + sample.radiosity * kShare;
     display = display + Display(sample, picture.exposure) * kShare;
   }
   const size_t pixel = static_cast<size_t>(y) * picture.width + x;
   picture.radiosity_lm_per_m2[pixel] = radiosity;
   picture.display[pixel] = display;
+}
+
+void RefineRoughPixels(const Painter& painter, Picture& picture) {
+  const std::vector<bool> rough = RoughPixels(picture);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (rough[static_cast<size_t>(y) * picture.width + x]) RefinePixel(painter, x, y, picture);
+    }
+  }
 }
 
 }  // namespace
@@ -146,13 +201,38 @@ Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& s
   Picture picture;
   SetSize(view, longer_side, picture);
   const Painter painter(view, patches, scene, solution, corner_irradiance_lx);
-  DrawMiddles(painter, exposure, picture);
-  const std::vector<bool> rough = RoughPixels(picture);
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      if (rough[static_cast<size_t>(y) * picture.width + x]) RefinePixel(painter, x, y, picture);
+  DrawMiddles(SeeMiddles(painter, picture), exposure, picture);
+  RefineRoughPixels(painter, picture);
+  return picture;
+}
+
+absl::StatusOr<Picture> DrawGatheredPicture(
+    const View& view, const PatchSet& patches, const RayScene& scene, const Solution& solution,
+    const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
+    const std::vector<std::array<Vec3, 3>>& corner_normals, const GatherFunction& gather,
+    int longer_side) {
+  Picture picture;
+  SetSize(view, longer_side, picture);
+  Painter painter(view, patches, scene, solution, corner_irradiance_lx);
+  std::vector<Sample> samples = SeeMiddles(painter, picture);
+  GatherPoints points;
+  for (const Sample& sample : samples) {
+    if (sample.patch == kNoPatch) continue;
+    Vec3 normal;
+    for (int corner = 0; corner < 3; ++corner) {
+      normal = normal + corner_normals[sample.patch][corner] * sample.weights[corner];
     }
+    points.Add(sample.position, Normalized(normal));
   }
+  const absl::StatusOr<Gathered> gathered = gather(points);
+  if (!gathered.ok()) return gathered.status();
+  size_t next = 0;
+  for (Sample& sample : samples) {
+    if (sample.patch != kNoPatch) painter.Light(gathered->irradiance_lx[next++], sample);
+  }
+  DrawMiddles(samples, std::nullopt, picture);
+  painter.SetGathered(std::move(samples));
+  RefineRoughPixels(painter, picture);
   return picture;
 }
 

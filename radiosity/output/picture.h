@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "absl/status/statusor.h"
+#include "radiosity/gather/gather_points.h"
 #include "radiosity/output/exposure.h"
 #include "radiosity/output/view.h"
 #include "radiosity/patch/patch_set.h"
@@ -33,6 +35,16 @@ Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& s
                     const Solution& solution,
                     const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
                     int longer_side = 960, const std::optional<Exposure>& exposure = std::nullopt);
+
+// The same where the irradiance of each pixel is gathered at what its middle sees, with the normal
+// interpolated between corners (SmoothNormals). The other rays of a pixel take that of the nearest
+// middle around them on the same surface; corner irradiance is for those that have none. Fails as
+// `gather` does.
+absl::StatusOr<Picture> DrawGatheredPicture(
+    const View& view, const PatchSet& patches, const RayScene& scene, const Solution& solution,
+    const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
+    const std::vector<std::array<Vec3, 3>>& corner_normals, const GatherFunction& gather,
+    int longer_side = 960);
 
 // Corner irradiance for DrawPicture that shows every patch flat, as it was solved.
 std::vector<std::array<Rgb, 3>> FlatIrradiance(const std::vector<Rgb>& irradiance_lx);

@@ -163,6 +163,22 @@ std::string SurfaceTable(const RunRecord& record, const UnitNames& units) {
   return html + ". Every patch is in patches.csv.</p>";
 }
 
+std::string SensorTable(const RunRecord& record, const UnitNames& units) {
+  if (record.sensors.empty()) return "";
+  const std::string unit = std::string(" [") + units.irradiance + "]";
+  std::string html =
+      "<h2>Sensors</h2><table>" + Head({"Grid", "#Sensors", "#Mean" + unit, "#Least" + unit,
+                                        "#Most" + unit, "#U0 = least / mean", "#Inside solids"});
+  for (const SensorGrid& grid : record.sensors) {
+    const GridFigures figures = FiguresOf(grid);
+    html += "<tr>" + Cell(grid.name) + NumberCell(std::to_string(figures.sensors)) +
+            NumberCell(Quantity(figures.mean_lx)) + NumberCell(Quantity(figures.min_lx)) +
+            NumberCell(Quantity(figures.max_lx)) + NumberCell(RoundedText(figures.uniformity, 2)) +
+            NumberCell(std::to_string(figures.inside)) + "</tr>";
+  }
+  return html + "</table>";
+}
+
 std::string Balance(const RunRecord& record, const UnitNames& units) {
   const Ledger& ledger = record.snapshot.solution->ledger;
   const double emitted = Luminance(ledger.emitted);
@@ -259,8 +275,9 @@ std::string EncodeReport(const RunRecord& record, const ReportPictures& pictures
          title + " - Lambert</title><style>" + kReportStyle + "</style></head><body>" + "<h1>" +
          title + "</h1><p class=\"soft\">Radiosity solution by Lambert</p>" + Tiles(record, units) +
          Pictures(pictures, units) + ErrorChart(record) + ReferenceTable(record) +
-         SurfaceTable(record, units) + Balance(record, units) + PlanTable(record.plan) +
-         Warnings(*record.patches) + Unhit(record) + Facts(record) + "</body></html>\n";
+         SensorTable(record, units) + SurfaceTable(record, units) + Balance(record, units) +
+         PlanTable(record.plan) + Warnings(*record.patches) + Unhit(record) + Facts(record) +
+         "</body></html>\n";
 }
 
 }  // namespace lambert

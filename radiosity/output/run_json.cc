@@ -138,6 +138,7 @@ std::string EncodeRunJson(const RunRecord& record, const std::optional<PictureFa
   if (record.measures.has_value()) json["measures"] = MeasuresJson(*record.measures);
   json["timings_s"] = Json::object();
   for (const auto& [what, seconds] : record.timings_s) json["timings_s"][what] = seconds;
+  json["final_gather_rays"] = record.final_gather_rays;
   json["picture"] = picture ? PictureJson(record, *picture) : Json(nullptr);
   json["warnings"] = Json::array();
   for (const Warning& warning : record.patches->warnings) {

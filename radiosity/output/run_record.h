@@ -9,6 +9,7 @@
 
 #include "radiosity/output/compare.h"
 #include "radiosity/output/convergence.h"
+#include "radiosity/output/sensors.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/solve/plan.h"
@@ -29,7 +30,9 @@ struct RunRecord {
   int workers = 0;                                            // that took part; 0: not known
   int threads = 0;                                            // a worker; 0: not known
   std::vector<ConvergenceRow> convergence;                    // as in convergence.csv, in order
+  int final_gather_rays = 0;                                  // a point of pictures; 0: none
   std::optional<ErrorMeasures> measures;                      // of the snapshot, with a reference
+  std::vector<SensorGrid> sensors;                            // gathered
   std::vector<std::pair<std::string, std::string>> versions;  // program or library, version
   std::string unit_version;                                   // the pins: UnitVersion()
   std::vector<std::pair<std::string, double>> timings_s;      // what, seconds, in order

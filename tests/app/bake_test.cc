@@ -36,6 +36,31 @@ TEST_F(BakeTest, TheSameSeedGivesTheSameBytesWithAnyWorkersAndThreads) {
   EXPECT_NE(one, bake("other", {"--seed", "2"}));
 }
 
+TEST_F(BakeTest, AFinalGatherAndSensorsAreTheSameBytesWithAnyWorkers) {
+  Write("points.csv", "x,y,z\n0.5,0.5,0.5\n");
+  const auto bake = [&](const std::string& out, const std::string& workers) {
+    const Ran ran = Run({"bake", "room.glb", "-o", out, "--max-rays", "20000", "--final-gather",
+                         "4", "--work-plane", "0.7", "--sensors", "points.csv", "--workers",
+                         workers, "--threads", "1"});
+    EXPECT_EQ(ran.exit_code, 0) << ran.error;
+    EXPECT_NE(ran.output.find("sensors.json"), std::string::npos) << ran.output;
+    return Read(out + "/sensors.csv") + Read(out + "/room.glb") + Read(out + "/room.png");
+  };
+  EXPECT_EQ(bake("one", "1"), bake("three", "3"));
+  EXPECT_EQ(Json::parse(Read("one/run.json"))["final_gather_rays"], 4);
+  const Json grids = Json::parse(Read("one/sensors.json"))["grids"];
+  ASSERT_EQ(grids.size(), 2u);
+  EXPECT_EQ(grids[0]["sensors"], 1);
+  EXPECT_GT(grids[1]["mean"], 0);
+  EXPECT_NE(Read("one/report.html").find("<h2>Sensors</h2>"), std::string::npos);
+}
+
+TEST_F(BakeTest, SensorsThatCannotBeReadAreToldBeforeAnyWork) {
+  const Ran ran = Run({"bake", "room.glb", "-o", "out", "--sensors", "none.csv"});
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_NE(ran.error.find("error: none.csv: "), std::string::npos) << ran.error;
+}
+
 TEST_F(BakeTest, WithJsonStandardOutputIsOneObject) {
   const Ran ran = Run({"bake", "room.glb", "-o", "out", "--max-error", "0.2", "--json"});
   EXPECT_EQ(ran.exit_code, 0) << ran.error;

@@ -162,6 +162,11 @@ TEST(CommandLine, OutputsAreAllOrThoseThatAreNamed) {
 
 TEST(CommandLine, QualityIsAWantedErrorByName) {
   EXPECT_EQ(Good({"plan", "a.glb", "--quality", "preview"}).solve.max_error, 0.1);
+  EXPECT_EQ(Good({"bake", "a.glb", "-o", "x"}).final_gather_rays, 0);
+  EXPECT_EQ(Good({"bake", "a.glb", "-o", "x", "--quality", "final"}).final_gather_rays, 64);
+  EXPECT_EQ(Good({"bake", "a.glb", "-o", "x", "--quality", "final", "--final-gather", "0"})
+                .final_gather_rays,
+            0);
   EXPECT_EQ(Good({"plan", "a.glb", "--quality", "draft"}).solve.max_error, 0.03);
   EXPECT_EQ(Good({"plan", "a.glb", "--quality", "final"}).solve.max_error, 0.01);
 }

@@ -62,7 +62,9 @@ TEST_F(ServerTest, AJobIsSubmittedWatchedFetchedListedAndDeleted) {
   EXPECT_EQ(watched.exit_code, 0) << watched.error;
   EXPECT_EQ(Json::parse(watched.output)["state"], "succeeded");
 
-  EXPECT_EQ(Run(There({"fetch", job, "-o", "out"})).exit_code, 0);
+  EXPECT_EQ(Run(There({"fetch", job, "-o", "out", "--final-gather", "4", "--work-plane", "0.7"}))
+                .exit_code,
+            0);
   ExpectAllFiles("out");
 
   const Json jobs = Json::parse(Run(There({"jobs", "--json"})).output);
