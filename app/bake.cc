@@ -43,6 +43,8 @@ class Bake {
   absl::Status LearnScene(const std::string& job);
   absl::Status Log(const Progress& progress, const Solution* solution);
   absl::StatusOr<ExitCode> Finish(const client::Job& job);
+  // What files that show textures or have a lightmap are made of.
+  absl::Status AddScene(RunRecord& record);
   void WarnOnce(const std::vector<Warning>& warnings);
   void Mark(const std::string& what);
   void CountWorkers(RunRecord& record);
@@ -105,7 +107,7 @@ absl::StatusOr<client::Job> Bake::Submit() {
   WarnOnce(scene->warnings);
   auto job = client.CreateJob(scene->name, options_.patch, options_.solve);
   if (!job.ok()) return job.status();
-  bundle_ = {};  // the server has it now
+  if (!options_.outputs.glb && !options_.lightmap) bundle_ = {};  // the server has it now
   Mark("submit");
   if (remote) printer_.Stage(fmt::format("{} at {}", job->name, options_.server));
   return job;
@@ -195,12 +197,32 @@ absl::StatusOr<ExitCode> Bake::Finish(const client::Job& job) {
   record->convergence = rows_;
   record->timings_s = timings_s_;
   CountWorkers(*record);
+  if (absl::Status status = AddScene(*record); !status.ok()) return status;
   if (absl::Status status = WriteOutputs(options_.out_folder, *record, options_.outputs);
       !status.ok()) {
     return status;
   }
   PrintSummary(job, *record, options_.out_folder, options_.json);
   return ExitCodeOf(job);
+}
+
+absl::Status Bake::AddScene(RunRecord& record) {
+  if (!options_.outputs.glb && !options_.lightmap) return absl::OkStatus();
+  auto scene = LoadGltf(bundle_);
+  if (!scene.ok()) return scene.status();
+  if (!SourcesExist(*scene, *record.patches)) {
+    return MakeError(absl::StatusCode::kDataLoss,
+                     {"PATCHES_INVALID", "patch set", "it is not of this scene",
+                      "submit the scene again, or ask who runs the server"});
+  }
+  record.scene = std::make_shared<const Scene>(*std::move(scene));
+  if (!options_.lightmap) return absl::OkStatus();
+  printer_.Stage("lightmap");
+  auto atlas = BuildAtlas(*record.scene, *record.patches, options_.lightmap_options);
+  if (!atlas.ok()) return atlas.status();
+  WarnOnce(atlas->warnings);
+  record.atlas = std::make_shared<const Atlas>(*std::move(atlas));
+  return absl::OkStatus();
 }
 
 void Bake::WarnOnce(const std::vector<Warning>& warnings) {

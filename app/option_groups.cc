@@ -19,6 +19,7 @@ constexpr char kPyramids[] = "Pyramids of the methods phs, hs and importance";
 constexpr char kPlace[] = "Where it runs";
 constexpr char kMeasure[] = "Measured error";
 constexpr char kBench[] = "What is compared";
+constexpr char kLightmap[] = "Lightmap";
 constexpr char kTerminal[] = "Terminal";
 
 // Options that bake has and bench replaces.
@@ -52,6 +53,18 @@ void AddSetting(CLI::App& command, const ShootSetting& setting, ShootOptions& sh
 }
 
 }  // namespace
+
+std::vector<std::string> SettingsWithoutEffect(Method method) {
+  if (method == Method::kAuto) return {};
+  if (method == Method::kImportance) return {"phs-rule", "phs-metric", "allocation"};
+  std::vector<std::string> names;
+  if (method == Method::kExact) names = {"sequence", "allocation"};
+  for (const ShootSetting& setting : ShootSettings()) {
+    const bool is_of_pyramids = std::string(setting.name).starts_with("phs-");
+    if (is_of_pyramids && !UsesPyramids(method)) names.push_back(setting.name);
+  }
+  return names;
+}
 
 double QualityError(const std::string& quality) {
   return quality == "preview" ? 0.1 : quality == "draft" ? 0.03 : 0.01;
@@ -200,6 +213,28 @@ void AddOutputOptions(CLI::App& command, Draft& draft) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(OneOf({"csv", "glb", "exr", "png", "report"}));
+}
+
+void AddLightmapOptions(CLI::App& command, Draft& draft) {
+  LightmapOptions& lightmap = draft.options.lightmap_options;
+  command
+      .add_flag("--lightmap", draft.options.lightmap,
+                "an atlas on TEXCOORD_1: NAME.lightmapped.glb, NAME.irradiance.exr,\n"
+                "NAME.lightmap.json")
+      ->group(kLightmap);
+  command
+      .add_option("--texels-per-meter", lightmap.texels_per_meter,
+                  fmt::format("density (absent: {}, or less so that all surfaces take {} texels)",
+                              kDefaultDensity, kDefaultTexels))
+      ->option_text("D")
+      ->check(NumberFrom(1e-6, 1e6))
+      ->group(kLightmap);
+  command
+      .add_option("--lightmap-page", lightmap.largest_page,
+                  fmt::format("largest side of a page, texels ({})", kLargestPage))
+      ->option_text("N")
+      ->check(OneOf({"256", "512", "1024", "2048", "4096"}))
+      ->group(kLightmap);
 }
 
 void AddProgressOption(CLI::App& command, Draft& draft) {

@@ -16,19 +16,23 @@ struct Draft {
   std::string quality;  // "" or preview, draft, final: a wanted error by name
 };
 
-void AddSceneOptions(CLI::App& command, Draft& draft);    // SCENE, --max-edge, ...
-void AddStopOptions(CLI::App& command, Draft& draft);     // --max-error, --quality, ...
-void AddMethodOptions(CLI::App& command, Draft& draft);   // --method, --seed, --phs-...
-void AddPlaceOptions(CLI::App& command, Draft& draft);    // --workers, --threads
-void AddServerOptions(CLI::App& command, Draft& draft);   // --server, --reconnect, --tls-ca, ...
-void AddMeasureOptions(CLI::App& command, Draft& draft);  // --reference, --region
-void AddOutputOptions(CLI::App& command, Draft& draft);   // -o, --outputs
-void AddProgressOption(CLI::App& command, Draft& draft);  // --progress
-void AddWatchOption(CLI::App& command, Draft& draft);     // --watch
-void AddJsonOption(CLI::App& command, Draft& draft);      // --json
+void AddSceneOptions(CLI::App& command, Draft& draft);     // SCENE, --max-edge, ...
+void AddStopOptions(CLI::App& command, Draft& draft);      // --max-error, --quality, ...
+void AddMethodOptions(CLI::App& command, Draft& draft);    // --method, --seed, --phs-...
+void AddPlaceOptions(CLI::App& command, Draft& draft);     // --workers, --threads
+void AddServerOptions(CLI::App& command, Draft& draft);    // --server, --reconnect, --tls-ca, ...
+void AddMeasureOptions(CLI::App& command, Draft& draft);   // --reference, --region
+void AddOutputOptions(CLI::App& command, Draft& draft);    // -o, --outputs
+void AddLightmapOptions(CLI::App& command, Draft& draft);  // --lightmap, --texels-per-meter, ...
+void AddProgressOption(CLI::App& command, Draft& draft);   // --progress
+void AddWatchOption(CLI::App& command, Draft& draft);      // --watch
+void AddJsonOption(CLI::App& command, Draft& draft);       // --json
 
 // SCENE... and what bake has and bench does not take away; --methods, --seeds, --budgets, ...
 void AddBenchOptions(CLI::App& command, Draft& draft);
+
+// The names of the settings that `method` does not look at.
+std::vector<std::string> SettingsWithoutEffect(Method method);
 
 // The wanted error that a --quality stands for. Requires: one of preview, draft, final.
 double QualityError(const std::string& quality);

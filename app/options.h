@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "net/credentials.h"
+#include "radiosity/lightmap/atlas.h"
 #include "radiosity/output/write_outputs.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/solve/options.h"
@@ -49,10 +50,12 @@ struct Options {
 
   Command command = Command::kBake;
 
-  std::string scene_path;         // bake, plan, submit: a .glb or .gltf file
-  std::string job;                // watch, fetch, cancel, delete: "solveJobs/ID"
-  std::string out_folder;         // bake, fetch, bench
-  OutputFiles outputs;            // bake, fetch
+  std::string scene_path;  // bake, plan, submit: a .glb or .gltf file
+  std::string job;         // watch, fetch, cancel, delete: "solveJobs/ID"
+  std::string out_folder;  // bake, fetch, bench
+  OutputFiles outputs;     // bake, fetch
+  bool lightmap = false;   // bake
+  LightmapOptions lightmap_options;
   std::string compare_path;       // compare: the table that is judged
   std::string compare_reference;  // compare: the table that it is judged by
 

@@ -17,7 +17,8 @@ std::vector<std::string> ResultFiles(const RunRecord& record, const std::string&
   std::vector<std::string> files;
   for (const std::string& name :
        {std::string("report.html"), record.name + ".png", record.name + ".glb",
-        record.name + ".exr", std::string("patches.csv"), std::string("convergence.csv"),
+        record.name + ".exr", record.name + ".lightmapped.glb", record.name + ".irradiance.exr",
+        record.name + ".lightmap.json", std::string("patches.csv"), std::string("convergence.csv"),
         std::string("run.json")}) {
     const auto path = std::filesystem::path(folder) / name;
     std::error_code error;

@@ -2,6 +2,7 @@
 
 #include "radiosity/output/exr.h"
 #include "radiosity/output/glb.h"
+#include "radiosity/output/lightmap_files.h"
 #include "radiosity/output/output_file.h"
 #include "radiosity/output/patch_table.h"
 #include "radiosity/output/png.h"
@@ -34,8 +35,11 @@ absl::Status WritePictures(const std::string& folder, const RunRecord& record,
   if (files.png) status = WriteOutputFile(stem + ".png", png);
   if (status.ok() && files.exr) status = WriteIfOk(stem + ".exr", EncodeExr(picture));
   if (status.ok() && files.glb) {
-    status = WriteIfOk(stem + ".glb", EncodeGlb(patches, light, picture.exposure, view));
+    status = WriteIfOk(stem + ".glb",
+                       EncodeGlb(patches, light, picture.exposure, view, record.scene.get()));
   }
+  if (status.ok() && record.atlas)
+    status = WriteLightmap(stem, record, light, picture.exposure, view);
   if (status.ok()) {
     status = WriteOutputFile(folder + "/run.json",
                              EncodeRunJson(record, PictureFacts{view, picture.exposure}));
@@ -59,7 +63,7 @@ absl::Status WriteOutputs(const std::string& folder, const RunRecord& record,
         folder + "/patches.csv", MakePatchTable(*record.patches, *record.snapshot.solution));
     if (!status.ok()) return status;
   }
-  if (files.NeedPicture()) return WritePictures(folder, record, files);
+  if (files.NeedPicture() || record.atlas) return WritePictures(folder, record, files);
   return WriteOutputFile(folder + "/run.json", EncodeRunJson(record, std::nullopt));
 }
 
