@@ -18,6 +18,7 @@
 #include "radiosity/output/convergence.h"
 #include "radiosity/output/sensors.h"
 #include "radiosity/output/write_outputs.h"
+#include "radiosity/patch/place.h"
 
 namespace lambert::app {
 namespace {
@@ -47,6 +48,8 @@ class Bake {
   absl::StatusOr<ExitCode> Finish(const client::Job& job);
   // The files of the result; one that is stopped by hand is written without a final gather.
   absl::Status Write(const client::Job& job, RunRecord& record);
+  // What files that show textures or have a lightmap are made of.
+  absl::Status AddScene(RunRecord& record);
   void WarnOnce(const std::vector<Warning>& warnings);
   void Mark(const std::string& what);
   void CountWorkers(RunRecord& record);
@@ -112,7 +115,7 @@ absl::StatusOr<client::Job> Bake::Submit() {
   WarnOnce(scene->warnings);
   auto job = client.CreateJob(scene->name, options_.patch, options_.solve);
   if (!job.ok()) return job.status();
-  bundle_ = {};  // the server has it now
+  if (!options_.outputs.glb && !options_.lightmap) bundle_ = {};  // the server has it now
   Mark("submit");
   if (remote) printer_.Stage(fmt::format("{} at {}", job->name, options_.server));
   return job;
@@ -202,6 +205,7 @@ absl::StatusOr<ExitCode> Bake::Finish(const client::Job& job) {
   record->convergence = rows_;
   record->timings_s = timings_s_;
   CountWorkers(*record);
+  if (absl::Status status = AddScene(*record); !status.ok()) return status;
   if (absl::Status status = Write(job, *record); !status.ok()) return status;
   PrintSummary(job, *record, options_.out_folder, options_.json);
   return ExitCodeOf(job);
@@ -210,7 +214,8 @@ absl::StatusOr<ExitCode> Bake::Finish(const client::Job& job) {
 absl::Status Bake::Write(const client::Job& job, RunRecord& record) {
   client::Client& client = *service_.client;
   const auto say = [this](const std::string& line) { printer_.Stage(line); };
-  record.final_gather_rays = options_.outputs.NeedPicture() ? options_.final_gather_rays : 0;
+  const bool draws = options_.outputs.NeedPicture() || options_.lightmap;
+  record.final_gather_rays = draws ? options_.final_gather_rays : 0;
   interrupt_.OnFirst([&client] { client.Abort(); });
   absl::Status status = AddSensors(client, job, options_, say, record);
   if (status.ok()) {
@@ -223,6 +228,26 @@ absl::Status Bake::Write(const client::Job& job, RunRecord& record) {
   printer_.Note("what is not gathered yet is left out");
   record.final_gather_rays = 0;
   return WriteOutputs(options_.out_folder, record, options_.outputs);
+}
+
+absl::Status Bake::AddScene(RunRecord& record) {
+  if (!options_.outputs.glb && !options_.lightmap) return absl::OkStatus();
+  auto scene = LoadGltf(bundle_, options_.limits);
+  if (!scene.ok()) return scene.status();
+  if (!SourcesExist(*scene, *record.patches)) {
+    return MakeError(absl::StatusCode::kDataLoss,
+                     {"PATCHES_INVALID", "patch set", "it is not of this scene",
+                      "submit the scene again, or ask who runs the server"});
+  }
+  ScaleInstances(options_.patch.metres_per_unit, *scene);
+  record.scene = std::make_shared<const Scene>(*std::move(scene));
+  if (!options_.lightmap) return absl::OkStatus();
+  printer_.Stage("lightmap");
+  auto atlas = BuildAtlas(*record.scene, *record.patches, options_.lightmap_options);
+  if (!atlas.ok()) return atlas.status();
+  WarnOnce(atlas->warnings);
+  record.atlas = std::make_shared<const Atlas>(*std::move(atlas));
+  return absl::OkStatus();
 }
 
 void Bake::WarnOnce(const std::vector<Warning>& warnings) {

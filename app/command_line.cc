@@ -11,7 +11,6 @@
 #include "app/settings.h"
 #include "fmt/format.h"
 #include "radiosity/core/error.h"
-#include "radiosity/shoot/settings.h"
 
 namespace lambert::app {
 namespace {
@@ -96,6 +95,7 @@ void Parser::AddBaking() {
     if (command == &bake) AddOutputOptions(*command, draft_);
     AddSolving(*command);
   }
+  AddLightmapOptions(bake, draft_);
 }
 
 void Parser::AddSolving(CLI::App& command) {
@@ -260,19 +260,6 @@ void Parser::WarnOfEffectless(const std::vector<std::string>& options, const std
   }
 }
 
-// What `method` does not look at.
-std::vector<std::string> SettingsWithoutEffect(Method method) {
-  if (method == Method::kAuto) return {};
-  if (method == Method::kImportance) return {"phs-rule", "phs-metric", "allocation"};
-  std::vector<std::string> names;
-  if (method == Method::kExact) names = {"sequence", "allocation"};
-  for (const ShootSetting& setting : ShootSettings()) {
-    const bool is_of_pyramids = std::string(setting.name).starts_with("phs-");
-    if (is_of_pyramids && !UsesPyramids(method)) names.push_back(setting.name);
-  }
-  return names;
-}
-
 std::vector<std::string> Parser::Warnings() const {
   const Options& options = draft_.options;
   std::vector<std::string> warnings;
@@ -292,6 +279,9 @@ std::vector<std::string> Parser::Warnings() const {
   }
   if (!options.bench.budgets.empty()) {
     WarnOfEffectless({"max-rays", "max-time"}, "with --budgets", warnings);
+  }
+  if (!options.lightmap) {
+    WarnOfEffectless({"texels-per-meter", "lightmap-page"}, "without --lightmap", warnings);
   }
   const bool measures = chosen_->command == Command::kBake || chosen_->command == Command::kFetch;
   if (options.reference_path.empty() && measures && method != Method::kImportance) {

@@ -24,6 +24,7 @@ constexpr char kPyramids[] = "Pyramids of the methods phs, hs and importance";
 constexpr char kPlace[] = "Where it runs";
 constexpr char kMeasure[] = "Measured error";
 constexpr char kBench[] = "What is compared";
+constexpr char kLightmap[] = "Lightmap";
 constexpr char kTerminal[] = "Terminal";
 
 // Options that bake has and bench replaces.
@@ -84,6 +85,18 @@ const std::vector<std::string>& OptionsOfThisProcess() {
   static const auto& names =
       *new std::vector<std::string>{"workers",       "threads",          "max-triangles",
                                     "max-instances", "max-image-pixels", "max-total-pixels"};
+  return names;
+}
+
+std::vector<std::string> SettingsWithoutEffect(Method method) {
+  if (method == Method::kAuto) return {};
+  if (method == Method::kImportance) return {"phs-rule", "phs-metric", "allocation"};
+  std::vector<std::string> names;
+  if (method == Method::kExact) names = {"sequence", "allocation"};
+  for (const ShootSetting& setting : ShootSettings()) {
+    const bool is_of_pyramids = std::string(setting.name).starts_with("phs-");
+    if (is_of_pyramids && !UsesPyramids(method)) names.push_back(setting.name);
+  }
   return names;
 }
 
@@ -274,6 +287,28 @@ void AddOutputOptions(CLI::App& command, Draft& draft) {
                   "a grid of sensors over each floor, so many metres above it (EN 12464-1)")
       ->option_text("HEIGHT")
       ->check(NumberFrom(0));
+}
+
+void AddLightmapOptions(CLI::App& command, Draft& draft) {
+  LightmapOptions& lightmap = draft.options.lightmap_options;
+  command
+      .add_flag("--lightmap", draft.options.lightmap,
+                "an atlas on TEXCOORD_1: NAME.lightmapped.glb, NAME.irradiance.exr,\n"
+                "NAME.lightmap.json")
+      ->group(kLightmap);
+  command
+      .add_option("--texels-per-meter", lightmap.texels_per_meter,
+                  fmt::format("density (absent: {}, or less so that all surfaces take {} texels)",
+                              kDefaultDensity, kDefaultTexels))
+      ->option_text("D")
+      ->check(NumberFrom(1e-6, 1e6))
+      ->group(kLightmap);
+  command
+      .add_option("--lightmap-page", lightmap.largest_page,
+                  fmt::format("largest side of a page, texels ({})", kLargestPage))
+      ->option_text("N")
+      ->check(OneOf({"256", "512", "1024", "2048", "4096"}))
+      ->group(kLightmap);
 }
 
 void AddProgressOption(CLI::App& command, Draft& draft) {

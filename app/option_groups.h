@@ -17,19 +17,23 @@ struct Draft {
   int final_gather_rays = -1;  // < 0: what the quality says
 };
 
-void AddSceneOptions(CLI::App& command, Draft& draft);    // SCENE, --max-edge, limits, ...
-void AddStopOptions(CLI::App& command, Draft& draft);     // --max-error, --quality, ...
-void AddMethodOptions(CLI::App& command, Draft& draft);   // --method, --seed, --phs-...
-void AddPlaceOptions(CLI::App& command, Draft& draft);    // --workers, --threads
-void AddServerOptions(CLI::App& command, Draft& draft);   // --server, --reconnect, --tls-ca, ...
-void AddMeasureOptions(CLI::App& command, Draft& draft);  // --reference, --region
-void AddOutputOptions(CLI::App& command, Draft& draft);   // -o, --outputs
-void AddProgressOption(CLI::App& command, Draft& draft);  // --progress
-void AddWatchOption(CLI::App& command, Draft& draft);     // --watch
-void AddJsonOption(CLI::App& command, Draft& draft);      // --json
+void AddSceneOptions(CLI::App& command, Draft& draft);     // SCENE, --max-edge, limits, ...
+void AddStopOptions(CLI::App& command, Draft& draft);      // --max-error, --quality, ...
+void AddMethodOptions(CLI::App& command, Draft& draft);    // --method, --seed, --phs-...
+void AddPlaceOptions(CLI::App& command, Draft& draft);     // --workers, --threads
+void AddServerOptions(CLI::App& command, Draft& draft);    // --server, --reconnect, --tls-ca, ...
+void AddMeasureOptions(CLI::App& command, Draft& draft);   // --reference, --region
+void AddOutputOptions(CLI::App& command, Draft& draft);    // -o, --outputs
+void AddLightmapOptions(CLI::App& command, Draft& draft);  // --lightmap, --texels-per-meter, ...
+void AddProgressOption(CLI::App& command, Draft& draft);   // --progress
+void AddWatchOption(CLI::App& command, Draft& draft);      // --watch
+void AddJsonOption(CLI::App& command, Draft& draft);       // --json
 
 // SCENE... and what bake has and bench does not take away; --methods, --seeds, --budgets, ...
 void AddBenchOptions(CLI::App& command, Draft& draft);
+
+// The names of the settings that `method` does not look at.
+std::vector<std::string> SettingsWithoutEffect(Method method);
 
 // Names, without dashes, of options that decide nothing where a server does the work.
 const std::vector<std::string>& OptionsOfThisProcess();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "net/credentials.h"
+#include "radiosity/lightmap/atlas.h"
 #include "radiosity/output/write_outputs.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/scene/load_gltf.h"
@@ -56,6 +57,8 @@ struct Options {
   std::string job;                     // watch, fetch, cancel, delete: "solveJobs/ID"
   std::string out_folder;              // bake, fetch, bench
   OutputFiles outputs;                 // bake, fetch
+  bool lightmap = false;               // bake
+  LightmapOptions lightmap_options;
   int final_gather_rays = 0;           // bake, fetch: a point; 0: none
   std::string sensors_path;            // bake, fetch: a file of sensors; "": none
   double work_plane_m = 0;             // bake, fetch: height of a work plane over each floor; 0: none

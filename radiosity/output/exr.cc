@@ -60,31 +60,47 @@ std::vector<Layer> MakeLayers(const Picture& picture) {
   return layers;
 }
 
-}  // namespace
-
-absl::StatusOr<std::string> EncodeExr(const Picture& picture) {
+// One part of these channels, rows from top to bottom.
+absl::StatusOr<std::string> EncodeLayers(int width, int height, std::vector<Layer> layers) {
   try {
-    std::vector<Layer> layers = MakeLayers(picture);
-    Imf::Header header(picture.width, picture.height);
+    Imf::Header header(width, height);
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::FrameBuffer frame;
     for (Layer& layer : layers) {
       header.channels().insert(layer.name, Imf::Channel(Imf::FLOAT));
       frame.insert(layer.name,
                    Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(layer.values.data()),
-                              sizeof(float), sizeof(float) * static_cast<size_t>(picture.width)));
+                              sizeof(float), sizeof(float) * static_cast<size_t>(width)));
     }
     MemoryStream stream;
     {
       constexpr int kThreads = 0;  // in the calling thread
       Imf::OutputFile file(stream, header, kThreads);
       file.setFrameBuffer(frame);
-      file.writePixels(picture.height);
+      file.writePixels(height);
     }
     return stream.TakeBytes();
   } catch (const std::exception& exception) {
     return absl::InternalError(std::string("OpenEXR: ") + exception.what());
   }
+}
+
+}  // namespace
+
+absl::StatusOr<std::string> EncodeExr(const Picture& picture) {
+  return EncodeLayers(picture.width, picture.height, MakeLayers(picture));
+}
+
+absl::StatusOr<std::string> EncodeIrradianceExr(const TexelPage& page,
+                                                const TexelValues& irradiance_lx) {
+  std::vector<Layer> layers = {{"R", {}}, {"G", {}}, {"B", {}}, {"valid", {}}};
+  for (size_t i = 0; i < irradiance_lx.size(); ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      layers[channel].values.push_back(irradiance_lx[i][channel]);
+    }
+    layers[3].values.push_back(page.texels[i].patch == kNoPatch ? 0.0f : 1.0f);
+  }
+  return EncodeLayers(page.width, page.height, std::move(layers));
 }
 
 }  // namespace lambert

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "radiosity/lightmap/lightmap.h"
 #include "radiosity/output/picture.h"
 
 namespace lambert {
@@ -14,5 +15,10 @@ namespace lambert {
 // id.patch, the patch. Where nothing is seen: 0, and -1 for id.patch. Values beyond float32 become
 // its largest. Patch numbers over 2^24 are rounded to even ones. INTERNAL where OpenEXR fails.
 absl::StatusOr<std::string> EncodeExr(const Picture& picture);
+
+// A page of a lightmap, one part: R, G, B irradiance [lx], `valid` 1 where a surface lies in the
+// texel, else 0. Requires: a value a texel.
+absl::StatusOr<std::string> EncodeIrradianceExr(const TexelPage& page,
+                                                const TexelValues& irradiance_lx);
 
 }  // namespace lambert

@@ -105,6 +105,12 @@ Json PictureJson(const RunRecord& record, const PictureFacts& picture) {
           {"exposure_per_lm_per_m2", picture.exposure.per_lm_per_m2}};
 }
 
+Json LightmapJson(const Atlas& atlas) {
+  Json pages = Json::array();
+  for (const PageSize& page : atlas.pages) pages.push_back({page.width, page.height});
+  return {{"texels_per_meter", atlas.texels_per_meter}, {"pages", std::move(pages)}};
+}
+
 }  // namespace
 
 Json PlanItemsJson(const Plan& plan) {
@@ -140,8 +146,13 @@ std::string EncodeRunJson(const RunRecord& record, const std::optional<PictureFa
   for (const auto& [what, seconds] : record.timings_s) json["timings_s"][what] = seconds;
   json["final_gather_rays"] = record.final_gather_rays;
   json["picture"] = picture ? PictureJson(record, *picture) : Json(nullptr);
+  json["lightmap"] = record.atlas ? LightmapJson(*record.atlas) : Json(nullptr);
   json["warnings"] = Json::array();
-  for (const Warning& warning : record.patches->warnings) {
+  std::vector<Warning> warnings = record.patches->warnings;
+  if (record.atlas) {
+    warnings.insert(warnings.end(), record.atlas->warnings.begin(), record.atlas->warnings.end());
+  }
+  for (const Warning& warning : warnings) {
     json["warnings"].push_back({{"reason", warning.reason}, {"message", warning.message}});
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -7,11 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "radiosity/lightmap/atlas.h"
 #include "radiosity/output/compare.h"
 #include "radiosity/output/convergence.h"
 #include "radiosity/output/sensors.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/patch/patch_set.h"
+#include "radiosity/scene/scene.h"
 #include "radiosity/solve/plan.h"
 #include "radiosity/solve/solution.h"
 #include "radiosity/solve/solver.h"
@@ -22,6 +24,8 @@ struct RunRecord {
   std::string name;          // of the scene, without folder and ending: "room" gives room.glb
   std::string scene_digest;  // SHA-256 of what was submitted
   std::shared_ptr<const PatchSet> patches;
+  std::shared_ptr<const Scene> scene;  // that they were built of, in metres; null where it is not at hand
+  std::shared_ptr<const Atlas> atlas;  // of both; null where no lightmap is wanted
   PatchOptions patch_options;
   Plan plan;          // with the options that were used
   Snapshot snapshot;  // the last one; its solution is not null

@@ -3,6 +3,7 @@
 #include "radiosity/output/exr.h"
 #include "radiosity/output/gathered_light.h"
 #include "radiosity/output/glb.h"
+#include "radiosity/output/lightmap_files.h"
 #include "radiosity/output/output_file.h"
 #include "radiosity/output/patch_table.h"
 #include "radiosity/output/png.h"
@@ -63,7 +64,11 @@ absl::Status WritePictures(const std::string& folder, const RunRecord& record,
   if (files.png) status = WriteOutputFile(stem + ".png", png);
   if (status.ok() && files.exr) status = WriteIfOk(stem + ".exr", EncodeExr(picture));
   if (status.ok() && files.glb) {
-    status = WriteIfOk(stem + ".glb", EncodeGlb(patches, lit->corners, picture.exposure, view));
+    status = WriteIfOk(stem + ".glb", EncodeGlb(patches, lit->corners, picture.exposure, view,
+                                                record.scene.get()));
+  }
+  if (status.ok() && record.atlas) {
+    status = WriteLightmap(stem, record, lit->corners, picture.exposure, view);
   }
   if (status.ok()) {
     status = WriteOutputFile(folder + "/run.json",
@@ -96,7 +101,7 @@ absl::Status WriteOutputs(const std::string& folder, const RunRecord& record,
     }
     if (!status.ok()) return status;
   }
-  if (files.NeedPicture()) return WritePictures(folder, record, files, gather);
+  if (files.NeedPicture() || record.atlas) return WritePictures(folder, record, files, gather);
   return WriteOutputFile(folder + "/run.json", EncodeRunJson(record, std::nullopt));
 }
 

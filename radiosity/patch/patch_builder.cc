@@ -25,19 +25,10 @@ int SamplesPerEdge(double expected_patches) {
                                      kLeastSamplesPerEdge, kMostSamplesPerEdge));
 }
 
-// Sum of a corner's values, each times its weight.
-template <typename Value>
-double Interpolate(Vec3 weights, const std::vector<Value>& values,
-                   const std::array<uint32_t, 3>& vertices, int axis) {
-  return weights.x * values[vertices[0]][axis] + weights.y * values[vertices[1]][axis] +
-         weights.z * values[vertices[2]][axis];
-}
-
 // The texture coordinates of a piece's corners.
 absl::StatusOr<std::array<Uv, 3>> UvOf(const PlacedTriangle& placed, const SplitPiece& piece,
                                        const TextureUse& use) {
-  const auto coordinates = placed.primitive->uv.find(use.uv_set);
-  if (coordinates == placed.primitive->uv.end()) {
+  if (!placed.primitive->uv.contains(use.uv_set)) {
     return SceneError(
         Where(placed.source),
         absl::StrCat("its material has a texture, but it has no TEXCOORD_", use.uv_set),
@@ -45,12 +36,7 @@ absl::StatusOr<std::array<Uv, 3>> UvOf(const PlacedTriangle& placed, const Split
   }
   std::array<Uv, 3> uv;
   for (int k = 0; k < 3; ++k) {
-    const auto at = [&](int axis) {
-      return Interpolate(piece[k].barycentric, coordinates->second, placed.vertices, axis);
-    };
-    const double u = at(0), v = at(1);
-    uv[k] = {use.row_u[0] * u + use.row_u[1] * v + use.row_u[2],
-             use.row_v[0] * u + use.row_v[1] * v + use.row_v[2]};
+    uv[k] = UvAt(use, *placed.primitive, placed.vertices, piece[k].barycentric);
     if (!std::isfinite(uv[k][0]) || !std::isfinite(uv[k][1])) {
       return SceneError(Where(placed.source), "a texture coordinate is not finite",
                         "export the file again");

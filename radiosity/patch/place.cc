@@ -3,6 +3,12 @@
 #include <utility>
 
 namespace lambert {
+void ScaleInstances(double metres_per_unit, Scene& scene) {
+  for (Instance& instance : scene.instances) {
+    instance.world = Placement{{}, metres_per_unit}.Place(instance.world);
+  }
+}
+
 absl::Status ForEachTriangle(const Scene& scene, const Placement& placement,
                              absl::FunctionRef<absl::Status(const PlacedTriangle&)> visit) {
   for (const Instance& instance : scene.instances) {

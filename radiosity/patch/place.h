@@ -21,6 +21,9 @@ struct Placement {
   }
 };
 
+// Makes metres of the file's unit, for all that a scene shows.
+void ScaleInstances(double metres_per_unit, Scene& scene);
+
 struct PlacedTriangle {
   std::array<Vec3, 3> corners;       // metres, placed
   std::array<uint32_t, 3> vertices;  // of the primitive, in the order of `corners`

@@ -91,6 +91,15 @@ void ForEachSample(int per_edge, Visit visit) {
 
 }  // namespace
 
+Uv UvAt(const TextureUse& use, const Primitive& primitive, const std::array<uint32_t, 3>& vertices,
+        Vec3 weights) {
+  const auto& coordinates = primitive.uv.at(use.uv_set);
+  const double u = Interpolate(weights, coordinates, vertices, 0);
+  const double v = Interpolate(weights, coordinates, vertices, 1);
+  return {use.row_u[0] * u + use.row_u[1] * v + use.row_u[2],
+          use.row_v[0] * u + use.row_v[1] * v + use.row_v[2]};
+}
+
 double SrgbToLinear(uint8_t code) {
   static const std::array<double, 256> table = MakeSrgbTable();
   return table[code];

@@ -2,13 +2,27 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <vector>
 
 #include "radiosity/core/rgb.h"
+#include "radiosity/core/vec3.h"
 #include "radiosity/scene/scene.h"
 
 namespace lambert {
 
 using Uv = std::array<double, 2>;
+
+// One component of the values of a triangle's vertices, each times its weight.
+template <typename Value>
+double Interpolate(Vec3 weights, const std::vector<Value>& values,
+                   const std::array<uint32_t, 3>& vertices, int axis) {
+  return weights.x * values[vertices[0]][axis] + weights.y * values[vertices[1]][axis] +
+         weights.z * values[vertices[2]][axis];
+}
+// Where a point of a triangle meets its texture. Requires: the primitive has TEXCOORD_n of `use`.
+Uv UvAt(const TextureUse& use, const Primitive& primitive, const std::array<uint32_t, 3>& vertices,
+        Vec3 weights);
 
 // What a triangle shows at its corners: a texture, vertex colours, or both.
 struct PaintedTriangle {

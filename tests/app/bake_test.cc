@@ -72,6 +72,20 @@ TEST_F(BakeTest, WithJsonStandardOutputIsOneObject) {
   EXPECT_EQ(summary["files"].size(), 7u);
 }
 
+TEST_F(BakeTest, ALightmapIsWrittenWhereItIsAskedFor) {
+  const Ran ran = Run({"bake", "room.glb", "-o", "out", "--max-rays", "20000", "--lightmap",
+                       "--texels-per-meter", "9", "--lightmap-page", "256"});
+  EXPECT_EQ(ran.exit_code, 0) << ran.error;
+  for (const char* file : {"lightmapped.glb", "irradiance.exr", "lightmap.json"}) {
+    EXPECT_NE(ran.output.find(std::string("out/room.") + file), std::string::npos) << ran.output;
+  }
+  EXPECT_EQ(Json::parse(Read("out/room.lightmap.json"))["texels_per_meter"], 9);
+  const Ran without =
+      Run({"bake", "room.glb", "-o", "plain", "--max-rays", "20000", "--texels-per-meter", "9"});
+  EXPECT_NE(without.error.find("--texels-per-meter has no effect"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "plain/room.lightmapped.glb"));
+}
+
 TEST_F(BakeTest, ABudgetSpentBeforeTheWantedErrorEndsWith5AndKeepsTheResult) {
   const Ran ran = Run(
       {"bake", "room.glb", "-o", "out", "--max-error", "1e-6", "--max-rays", "20000", "--json"});

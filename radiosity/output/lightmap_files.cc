@@ -1,0 +1,121 @@
+#include "radiosity/output/lightmap_files.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "radiosity/lightmap/atlas_part.h"
+#include "radiosity/lightmap/lightmap.h"
+#include "radiosity/output/exr.h"
+#include "radiosity/output/lightmap_glb.h"
+#include "radiosity/output/output_file.h"
+#include "radiosity/output/png.h"
+
+namespace lambert {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The page as the picture shows it: exitance and reflected light, developed.
+std::string DrawPage(const TexelReader& reader, const TexelPage& page,
+                     const TexelValues& irradiance_lx, const Exposure& exposure) {
+  TexelValues display(page.texels.size());
+  for (size_t i = 0; i < display.size(); ++i) {
+    if (page.texels[i].patch == kNoPatch) continue;
+    const TexelSurface surface = reader.At(page, i);
+    const auto& [r, g, b] = irradiance_lx[i];
+    const Rgb seen =
+        Develop(surface.exitance_lm_per_m2 + surface.reflectance * Rgb{r, g, b}, exposure);
+    for (int channel = 0; channel < 3; ++channel) {
+      display[i][channel] = static_cast<float>(seen[channel]);
+    }
+  }
+  Dilate(page, display);
+  std::vector<Rgb> pixels;
+  pixels.reserve(display.size());
+  for (const auto& [r, g, b] : display) pixels.push_back({r, g, b});
+  return EncodePng(page.width, page.height, pixels);
+}
+
+std::string IrradianceFile(const std::string& stem, size_t page) {
+  return page == 0 ? stem + ".irradiance.exr"
+                   : absl::StrCat(stem, ".irradiance-", page + 1, ".exr");
+}
+
+Json PrimitiveJson(const Scene& scene, const Atlas& atlas, const AtlasPart& part) {
+  const PlacedSurface& surface = atlas.placed.surfaces[part.surface];
+  const Instance& instance = scene.instances[surface.instance];
+  const int32_t kept = atlas.kept_uv[part.surface];
+  return {{"instance", surface.instance},
+          {"node", instance.node},
+          {"mesh", instance.mesh},
+          {"primitive", surface.primitive},
+          {"side", part.is_back ? "back" : "front"},
+          {"page", part.page},
+          {"triangles", part.triangles.size()},
+          {"charts", kept < 0 ? Json("own") : Json(absl::StrCat("TEXCOORD_", kept))}};
+}
+
+Json Manifest(const std::string& name, const RunRecord& record, const std::vector<AtlasPart>& parts,
+              const Exposure& exposure) {
+  const Atlas& atlas = *record.atlas;
+  Json json;
+  json["quantity"] = "E";
+  json["unit"] = UnitNamesOf(record.patch_options.emission_unit).irradiance;
+  json["about"] =
+      "irradiance E of each texel; a lightMap of three.js takes E as it is, Blender's bakes hold "
+      "E / pi";
+  json["exposure_per_lm_per_m2"] = exposure.per_lm_per_m2;
+  json["texels_per_meter"] = atlas.texels_per_meter;
+  json["padding_texels"] = kPadding;
+  json["texture_coordinates"] = "TEXCOORD_1, (0, 0) at the upper left corner of the page";
+  json["lightmapped"] = name + ".lightmapped.glb";
+  json["pages"] = Json::array();
+  for (size_t page = 0; page < atlas.pages.size(); ++page) {
+    json["pages"].push_back({{"file", IrradianceFile(name, page)},
+                             {"width", atlas.pages[page].width},
+                             {"height", atlas.pages[page].height}});
+  }
+  json["primitives"] = Json::array();
+  for (const AtlasPart& part : parts) {
+    json["primitives"].push_back(PrimitiveJson(*record.scene, atlas, part));
+  }
+  return json;
+}
+
+}  // namespace
+
+absl::Status WriteLightmap(const std::string& stem, const RunRecord& record,
+                           const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
+                           const Exposure& exposure, const View& view) {
+  const Scene& scene = *record.scene;
+  const PatchSet& patches = *record.patches;
+  const Atlas& atlas = *record.atlas;
+  const absl::StatusOr<TexelReader> reader = TexelReader::Create(scene, patches, atlas);
+  if (!reader.ok()) return reader.status();
+  std::vector<std::string> pngs;
+  const std::vector<TexelPage> pages = FindTexels(scene, patches, atlas);
+  for (size_t page = 0; page < pages.size(); ++page) {
+    TexelValues light = TexelIrradiance(pages[page], corner_irradiance_lx);
+    pngs.push_back(DrawPage(*reader, pages[page], light, exposure));
+    Dilate(pages[page], light);
+    const absl::StatusOr<std::string> exr = EncodeIrradianceExr(pages[page], light);
+    if (!exr.ok()) return exr.status();
+    absl::Status status = WriteOutputFile(IrradianceFile(stem, page), *exr);
+    if (!status.ok()) return status;
+  }
+  const std::vector<AtlasPart> parts = PartsOf(atlas, SidesWithPatches(scene, patches, atlas));
+  const absl::StatusOr<std::string> glb =
+      EncodeLightmappedGlb(scene, patches, atlas, parts, pngs, exposure, view);
+  if (!glb.ok()) return glb.status();
+  absl::Status status = WriteOutputFile(stem + ".lightmapped.glb", *glb);
+  if (!status.ok()) return status;
+  const std::string name = std::filesystem::path(stem).filename().string();
+  return WriteOutputFile(
+      stem + ".lightmap.json",
+      Manifest(name, record, parts, exposure).dump(2, ' ', false, Json::error_handler_t::replace) +
+          "\n");
+}
+
+}  // namespace lambert

@@ -1,0 +1,50 @@
+// What base textures are multiplied by to show their light.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "radiosity/lightmap/placed_scene.h"
+#include "radiosity/output/exposure.h"
+#include "radiosity/output/glb_writer.h"
+#include "radiosity/patch/patch_set.h"
+#include "radiosity/patch/texture_mean.h"
+#include "radiosity/scene/scene.h"
+
+namespace lambert {
+
+// Of the patches of one scene. The arguments of the constructor must outlive it.
+class TextureLight {
+ public:
+  // A null scene has no textures. Requires: patches and light of that scene.
+  TextureLight(const PatchSet& patches, const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
+               const Exposure& exposure, const Scene* scene);
+
+  // The material whose base texture patch i shows, or -1: it has none, or it emits.
+  int MaterialOf(PatchIndex i) const { return material_[i]; }
+
+  struct Corner {
+    Rgb color;  // times the texture: the picture; over 1 where the gain is too small
+    double alpha = 1;
+    Uv uv{};  // of the texture as MakeMaterial stores it
+  };
+  // Requires: MaterialOf(i) >= 0.
+  Corner At(PatchIndex i, int corner) const;
+
+  // An unlit material with the texture, times the gain of its light (in its extras).
+  GlbWriter::Json MakeMaterial(int material, GlbWriter& writer) const;
+
+ private:
+  Corner Ungained(PatchIndex i, int corner) const;
+
+  const PatchSet& patches_;
+  const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx_;
+  const Exposure exposure_;
+  const Scene* const scene_;
+  PlacedScene placed_;
+  std::vector<int32_t> triangle_;  // by patch
+  std::vector<int> material_;      // by patch
+  std::vector<double> gain_;       // by material
+};
+
+}  // namespace lambert

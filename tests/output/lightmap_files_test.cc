@@ -1,0 +1,188 @@
+#include "radiosity/output/lightmap_files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "radiosity/output/glb.h"
+#include "radiosity/output/output_file.h"
+#include "radiosity/output/smooth.h"
+#include "radiosity/output/texture_image.h"
+#include "radiosity/output/write_outputs.h"
+#include "radiosity/patch/texture_mean.h"
+#include "radiosity/scene/load_gltf.h"
+#include "tests/output/known_light.h"
+#include "tests/support/read_file.h"
+#include "tests/support/scenes.h"
+
+namespace lambert {
+namespace {
+
+using Json = nlohmann::json;
+
+// A floor with a texture of two halves, .2 and .6, and a two-sided wall without.
+Scene TexturedScene() {
+  Scene scene = SceneMaker()
+                    .Quad({}, {0, 0, 1}, {1, 0, 0}, {{1, 1, 1}, {}}, 8, "floor")
+                    .Quad({}, {1, 0, 0}, {0, 1, 0}, {{0.5, 0.3, 0.5}, {}, true}, 4, "wall")
+                    .Make();
+  Texture texture;
+  texture.width = 16;
+  texture.height = 16;
+  for (int i = 0; i < 256; ++i) {
+    const uint8_t code = SrgbByte(i % 16 < 8 ? 0.2 : 0.6);
+    texture.rgba.insert(texture.rgba.end(), {code, code, code, 255});
+  }
+  scene.textures = {texture};
+  scene.materials[0].reflectance_texture.texture = 0;
+  Primitive& floor = scene.meshes[0].primitives[0];
+  for (const auto& p : floor.positions) floor.uv[0].push_back({p[0], p[2]});
+  return scene;
+}
+
+RunRecord LightmapRecord(const Scene& scene, const LightmapOptions& options) {
+  RunRecord record = RecordOf(PatchesOf(scene), [](Vec3 p) { return Rgb{2 + p.x, 2, 2}; });
+  record.scene = std::make_shared<const Scene>(scene);
+  record.atlas = std::make_shared<const Atlas>(*BuildAtlas(scene, *record.patches, options));
+  return record;
+}
+
+Scene Reloaded(const std::string& path) {
+  SceneBundle bundle;
+  bundle.main_name = path;
+  bundle.main_bytes = ReadFile(path);
+  absl::StatusOr<Scene> scene = LoadGltf(bundle);
+  EXPECT_TRUE(scene.ok()) << scene.status();
+  return *std::move(scene);
+}
+
+// The linear picture at the middle of each triangle of a file of ours: texture times colour.
+template <typename Visit>
+void ForEachMiddle(const Scene& file, int uv_set, Visit visit) {
+  for (const Instance& instance : file.instances) {
+    for (const Primitive& primitive : file.meshes[instance.mesh].primitives) {
+      const Material& material = file.materials[primitive.material];
+      for (const auto& t : primitive.triangles) {
+        Vec3 p;
+        Rgb color;
+        for (uint32_t vertex : t) {
+          p = p + instance.world.Point(FromFloats(primitive.positions[vertex])) / 3.0;
+          for (int c = 0; c < 3; ++c) {
+            color[c] += primitive.colors.empty() ? 1.0 / 3 : primitive.colors[vertex][c] / 3.0;
+          }
+        }
+        const auto corner = [&](int k) {
+          return instance.world.Point(FromFloats(primitive.positions[t[k]]));
+        };
+        const Vec3 normal = Normalized(Cross(corner(1) - corner(0), corner(2) - corner(0)));
+        if (material.reflectance_texture.texture >= 0) {
+          const Texture& texture = file.textures[material.reflectance_texture.texture];
+          const Uv uv = UvAt({0, uv_set}, primitive, t, {1.0 / 3, 1.0 / 3, 1.0 / 3});
+          const int x = std::min(static_cast<int>(uv[0] * texture.width), texture.width - 1);
+          const int y = std::min(static_cast<int>(uv[1] * texture.height), texture.height - 1);
+          const uint8_t* texel = &texture.rgba[4 * (size_t{1} * y * texture.width + x)];
+          for (int c = 0; c < 3; ++c) color[c] *= SrgbToLinear(texel[c]);
+        }
+        visit(p, normal, color);
+      }
+    }
+  }
+}
+
+Rgb ExpectedAt(Vec3 p, Vec3 normal, const Exposure& exposure) {
+  const bool is_floor = std::fabs(normal.y) > 0.5;
+  const double half = p.x < 0.5 ? 0.2 : 0.6;
+  const Rgb reflectance = is_floor ? Rgb{half, half, half} : Rgb{0.5, 0.3, 0.5};
+  return Develop(reflectance * Rgb{2 + p.x, 2, 2}, exposure);
+}
+
+void ExpectClose(Rgb seen, Rgb wanted, double share, Vec3 p) {
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(seen[c], wanted[c], share * wanted[c]) << p.x << " " << p.y << " " << p.z;
+  }
+}
+
+TEST(WriteLightmap, ItsFilesShowTheLight) {
+  const RunRecord record = LightmapRecord(TexturedScene(), {32});
+  const std::string folder = TestFolder();
+  ASSERT_TRUE(WriteOutputs(folder, record).ok());
+  const Json run = Json::parse(ReadFile(folder + "/run.json"));
+  EXPECT_EQ(run["lightmap"]["texels_per_meter"], 32);
+  const Exposure exposure{run["picture"]["exposure_per_lm_per_m2"]};
+  const Scene lightmapped = Reloaded(folder + "/room.lightmapped.glb");
+  int triangles = 0;
+  ForEachMiddle(lightmapped, 1, [&](Vec3 p, Vec3 normal, Rgb seen) {
+    ++triangles;
+    // Smoothed over 1/8 m, so .06 of 2 off where the light is mirrored at an edge; 8 bits.
+    ExpectClose(seen, ExpectedAt(p, normal, exposure), 0.06, p);
+  });
+  EXPECT_EQ(triangles, record.patches->size());
+  const Json manifest = Json::parse(ReadFile(folder + "/room.lightmap.json"));
+  EXPECT_EQ(manifest["quantity"], "E");
+  EXPECT_EQ(manifest["unit"], "lx");
+  EXPECT_EQ(manifest["primitives"].size(), 3u);  // the floor, the wall, and its back
+  EXPECT_EQ(manifest["pages"][0]["file"], "room.irradiance.exr");
+  EXPECT_GT(ReadFile(folder + "/room.irradiance.exr").size(), 1000u);
+}
+
+TEST(WriteLightmap, PagesAreNumbered) {
+  const RunRecord record = LightmapRecord(MakeCornell(), {16, 64});
+  ASSERT_GT(record.atlas->pages.size(), 1u);
+  const std::string folder = TestFolder();
+  ASSERT_TRUE(WriteOutputs(folder, record, {false, false, false, false, false}).ok());
+  const Json manifest = Json::parse(ReadFile(folder + "/room.lightmap.json"));
+  EXPECT_EQ(manifest["pages"].size(), record.atlas->pages.size());
+  for (const Json& page : manifest["pages"]) {
+    EXPECT_TRUE(std::filesystem::exists(folder + "/" + page["file"].get<std::string>()));
+  }
+  EXPECT_EQ(manifest["pages"][1]["file"], "room.irradiance-2.exr");
+}
+
+TEST(EncodeGlb, BaseTexturesStaySharp) {
+  const RunRecord record = LightmapRecord(TexturedScene(), {32});
+  const std::string folder = TestFolder();
+  ASSERT_TRUE(WriteOutputs(folder, record).ok());
+  const Exposure exposure{
+      Json::parse(ReadFile(folder + "/run.json"))["picture"]["exposure_per_lm_per_m2"]};
+  const Scene glb = Reloaded(folder + "/room.glb");
+  ASSERT_EQ(glb.textures.size(), 1u);
+  int textured = 0;
+  ForEachMiddle(glb, 0, [&](Vec3 p, Vec3 normal, Rgb seen) {
+    textured += std::fabs(normal.y) > 0.5;
+    ExpectClose(seen, ExpectedAt(p, normal, exposure), 0.1, p);
+  });
+  EXPECT_EQ(textured, 128);
+}
+
+TEST(EncodeTexture, AGainMakesItBrighter) {
+  Texture texture;
+  texture.width = texture.height = 1;
+  texture.rgba = {SrgbByte(0.1), SrgbByte(0.2), SrgbByte(0.9), 128};
+  const ImageBytes as_is = EncodeTexture(texture, 1);
+  EXPECT_EQ(as_is.mime_type, "image/png");
+  EXPECT_NE(EncodeTexture(texture, 2).bytes, as_is.bytes);
+  texture.rgba[3] = 255;
+  EXPECT_EQ(EncodeTexture(texture, 1).mime_type, "image/jpeg");
+}
+
+TEST(WriteLightmap, TheKhronosValidatorFindsNoError) {
+  if (!std::filesystem::exists(LAMBERT_TEST_TOOLS "/node_modules/gltf-validator")) {
+    GTEST_SKIP() << "gltf-validator is not installed";
+  }
+  const std::string folder = TestFolder();
+  ASSERT_TRUE(WriteOutputs(folder + "/a", LightmapRecord(TexturedScene(), {32})).ok());
+  ASSERT_TRUE(WriteOutputs(folder + "/b", LightmapRecord(MakeCornell(), {16, 64})).ok());
+  std::string command = "node " LAMBERT_TEST_TOOLS "/validate_glb.cjs";
+  for (const char* part : {"a", "b"}) {
+    for (const char* name : {"room.glb", "room.lightmapped.glb"}) {
+      command += " '" + folder + "/" + part + "/" + name + "'";
+    }
+  }
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+}  // namespace
+}  // namespace lambert
