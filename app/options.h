@@ -59,11 +59,11 @@ struct Options {
   OutputFiles outputs;                 // bake, fetch
   bool lightmap = false;               // bake
   LightmapOptions lightmap_options;
-  int final_gather_rays = 0;           // bake, fetch: a point; 0: none
-  std::string sensors_path;            // bake, fetch: a file of sensors; "": none
-  double work_plane_m = 0;             // bake, fetch: height of a work plane over each floor; 0: none
-  std::string compare_path;            // compare: the table that is judged
-  std::string compare_reference;       // compare: the table that it is judged by
+  int final_gather_rays = 0;      // bake, fetch: a point; 0: none
+  std::string sensors_path;       // bake, fetch: a file of sensors; "": none
+  double work_plane_m = 0;        // bake, fetch: height of a work plane over each floor; 0: none
+  std::string compare_path;       // compare: the table that is judged
+  std::string compare_reference;  // compare: the table that it is judged by
 
   PatchOptions patch;
   SceneLimits limits;  // of what is read here; a server has its own

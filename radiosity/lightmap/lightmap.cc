@@ -71,8 +71,7 @@ void Dilate(const TexelPage& page, TexelValues& values) {
 absl::StatusOr<TexelReader> TexelReader::Create(const Scene& scene, const PatchSet& patches,
                                                 const Atlas& atlas) {
   std::vector<Warning> warnings;  // said when the patches were built
-  absl::StatusOr<std::vector<PatchMaterial>> materials =
-      MakePatchMaterials(scene, {}, &warnings);
+  absl::StatusOr<std::vector<PatchMaterial>> materials = MakePatchMaterials(scene, {}, &warnings);
   if (!materials.ok()) return materials.status();
   return TexelReader(scene, patches, atlas, *std::move(materials));
 }

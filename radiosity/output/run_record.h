@@ -24,7 +24,8 @@ struct RunRecord {
   std::string name;          // of the scene, without folder and ending: "room" gives room.glb
   std::string scene_digest;  // SHA-256 of what was submitted
   std::shared_ptr<const PatchSet> patches;
-  std::shared_ptr<const Scene> scene;  // that they were built of, in metres; null where it is not at hand
+  std::shared_ptr<const Scene>
+      scene;  // that they were built of, in metres; null where it is not at hand
   std::shared_ptr<const Atlas> atlas;  // of both; null where no lightmap is wanted
   PatchOptions patch_options;
   Plan plan;          // with the options that were used

@@ -56,8 +56,8 @@ absl::StatusOr<Survey> SurveyScene(const Scene& scene, const PatchOptions& optio
   return survey;
 }
 
-absl::Status AddLights(const Scene& scene, const LightOptions& options,
-                       const Placement& placement, PatchSet* patches) {
+absl::Status AddLights(const Scene& scene, const LightOptions& options, const Placement& placement,
+                       PatchSet* patches) {
   const absl::StatusOr<std::vector<Light>> lights = LightsOf(scene, options);
   if (!lights.ok()) return lights.status();
   for (size_t k = 0; k < lights->size(); ++k) {

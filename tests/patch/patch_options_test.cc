@@ -16,7 +16,8 @@ TEST(SceneUnit, ScalesPlacesOfAllAndNoLight) {
                           .Light({150, 300, 50}, {7, 7, 7})
                           .LookFrom({150, 500, 50}, {150, 0, 51})
                           .Make();
-  PatchOptions options{.max_edge_m = 0.75};
+  PatchOptions options;
+  options.max_edge_m = 0.75;
   EXPECT_GT(BuildPatches(scene, options)->size(), 2000);
   options.metres_per_unit = 0.01;
   const PatchSet patches = *BuildPatches(scene, options);
