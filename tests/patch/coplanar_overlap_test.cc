@@ -62,9 +62,9 @@ TEST(CoplanarOverlap, NeighboursAndNearPlanesMeetNothing) {
 }
 
 TEST(CoplanarOverlap, WhatIsTooSmallForANormalMeetsNothing) {
-  // Beside 1e30 m the corners of the floor are one point.
-  EXPECT_EQ(CountIn(Floor().Quad({0, 0, 0}, {1e30, 0, 0}, {0, 1e30, 0}, kGray)), 0);
-  EXPECT_EQ(CountIn(Floor().Quad({0, 0, 1}, {1e30, 0, 0}, {0, 1e30, 0}, kGray)), 0);
+  // Beside 1e17 m the corners of the floor are one point.
+  EXPECT_EQ(CountIn(Floor().Quad({0, 0, 0}, {1e17, 0, 0}, {0, 1e17, 0}, kGray)), 0);
+  EXPECT_EQ(CountIn(Floor().Quad({0, 0, 1}, {1e17, 0, 0}, {0, 1e17, 0}, kGray)), 0);
 }
 
 TEST(CoplanarOverlap, TheOriginMayBeFarAway) {

@@ -54,6 +54,7 @@ int AddCompressed(const std::vector<unsigned char>& bytes, size_t count, size_t 
       {"mode", mode},
       {"filter", filter}};
   document->json["extensionsRequired"] = {"EXT_meshopt_compression", "KHR_mesh_quantization"};
+  document->json["extensionsUsed"] = {"KHR_mesh_quantization"};
   return data;
 }
 
