@@ -30,7 +30,7 @@ void AddOutputOptions(CLI::App& command, Draft& draft) {
       ->check(OneOf({"csv", "glb", "exr", "png", "report"}));
   command
       .add_option("--final-gather", draft.final_gather_rays,
-                  "gather light at each pixel and vertex, rays a point; 0: none (0; 64 at "
+                  "gather light at each pixel, vertex and texel, rays a point; 0: none (0; 64 at "
                   "--quality final)")
       ->option_text("RAYS")
       ->transform(CountFrom(0, kMaxGatherRays));

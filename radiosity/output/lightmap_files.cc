@@ -1,5 +1,6 @@
 #include "radiosity/output/lightmap_files.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "radiosity/lightmap/atlas_part.h"
 #include "radiosity/lightmap/lightmap.h"
 #include "radiosity/output/exr.h"
+#include "radiosity/output/float_value.h"
 #include "radiosity/output/lightmap_glb.h"
 #include "radiosity/output/output_file.h"
 #include "radiosity/output/png.h"
@@ -36,6 +38,34 @@ std::string DrawPage(const TexelReader& reader, const TexelPage& page,
   pixels.reserve(display.size());
   for (const auto& [r, g, b] : display) pixels.push_back({r, g, b});
   return EncodePng(page.width, page.height, pixels);
+}
+
+// The light in every texel of a page, gathered at its point [lx].
+absl::StatusOr<TexelValues> GatherTexels(const TexelPage& page, const PatchSet& patches,
+                                         const std::vector<std::array<Vec3, 3>>& corner_normals,
+                                         const GatherFunction& gather) {
+  TexelValues values(page.texels.size());
+  std::vector<size_t> places;
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (page.texels[i].patch != kNoPatch) places.push_back(i);
+  }
+  for (size_t begin = 0; begin < places.size(); begin += kMaxGatherPoints) {
+    const size_t end = std::min(places.size(), begin + kMaxGatherPoints);
+    GatherPoints points;
+    for (size_t k = begin; k < end; ++k) {
+      const Texel& texel = page.texels[places[k]];
+      const auto& [n0, n1, n2] = corner_normals[texel.patch];
+      const double u = texel.u, v = texel.v;
+      points.Add(TexelPoint(patches, texel), Normalized(n0 * (1 - u - v) + n1 * u + n2 * v));
+    }
+    const absl::StatusOr<Gathered> gathered = gather(points);
+    if (!gathered.ok()) return gathered.status();
+    for (size_t k = begin; k < end; ++k) {
+      const Rgb light = gathered->irradiance_lx[k - begin];
+      values[places[k]] = {FloatValue(light.r), FloatValue(light.g), FloatValue(light.b)};
+    }
+  }
+  return values;
 }
 
 std::string IrradianceFile(const std::string& stem, size_t page) {
@@ -88,7 +118,9 @@ Json Manifest(const std::string& name, const RunRecord& record, const std::vecto
 
 absl::Status WriteLightmap(const std::string& stem, const RunRecord& record,
                            const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
-                           const Exposure& exposure, const View& view) {
+                           const Exposure& exposure, const View& view,
+                           const std::vector<std::array<Vec3, 3>>& corner_normals,
+                           const GatherFunction& gather) {
   const Scene& scene = *record.scene;
   const PatchSet& patches = *record.patches;
   const Atlas& atlas = *record.atlas;
@@ -97,10 +129,12 @@ absl::Status WriteLightmap(const std::string& stem, const RunRecord& record,
   std::vector<std::string> pngs;
   const std::vector<TexelPage> pages = FindTexels(scene, patches, atlas);
   for (size_t page = 0; page < pages.size(); ++page) {
-    TexelValues light = TexelIrradiance(pages[page], corner_irradiance_lx);
-    pngs.push_back(DrawPage(*reader, pages[page], light, exposure));
-    Dilate(pages[page], light);
-    const absl::StatusOr<std::string> exr = EncodeIrradianceExr(pages[page], light);
+    absl::StatusOr<TexelValues> light = TexelIrradiance(pages[page], corner_irradiance_lx);
+    if (gather != nullptr) light = GatherTexels(pages[page], patches, corner_normals, gather);
+    if (!light.ok()) return light.status();
+    pngs.push_back(DrawPage(*reader, pages[page], *light, exposure));
+    Dilate(pages[page], *light);
+    const absl::StatusOr<std::string> exr = EncodeIrradianceExr(pages[page], *light);
     if (!exr.ok()) return exr.status();
     absl::Status status = WriteOutputFile(IrradianceFile(stem, page), *exr);
     if (!status.ok()) return status;

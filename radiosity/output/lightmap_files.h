@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "radiosity/core/vec3.h"
+#include "radiosity/gather/gather_points.h"
 #include "radiosity/output/exposure.h"
 #include "radiosity/output/run_record.h"
 #include "radiosity/output/view.h"
@@ -14,9 +16,13 @@ namespace lambert {
 
 // Writes STEM.lightmapped.glb, STEM.irradiance.exr (and -2, -3, ... for more pages) and
 // STEM.lightmap.json, one after the other, as docs/formats.md says. `stem`: folder and name.
-// Requires: record.scene and record.atlas; light at the corners of its patches [lx].
+// With `gather` the light of each texel is gathered at its point; else it is linear between the
+// corners of patches. Fails as `gather` does. Requires: record.scene and record.atlas; light at the
+// corners of its patches [lx] and, with `gather`, normals there (gathered_light.h).
 absl::Status WriteLightmap(const std::string& stem, const RunRecord& record,
                            const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
-                           const Exposure& exposure, const View& view);
+                           const Exposure& exposure, const View& view,
+                           const std::vector<std::array<Vec3, 3>>& corner_normals = {},
+                           const GatherFunction& gather = nullptr);
 
 }  // namespace lambert

@@ -23,6 +23,7 @@ using CornerLight = std::vector<std::array<Rgb, 3>>;
 // Irradiance at the corners of patches, and the picture in that light.
 struct Lit {
   CornerLight corners;
+  std::vector<std::array<Vec3, 3>> normals;  // there; empty without a gather
   Picture picture;
 };
 
@@ -43,7 +44,7 @@ absl::StatusOr<Lit> LightPicture(const View& view, const RunRecord& record, cons
   absl::StatusOr<Picture> picture =
       DrawGatheredPicture(view, patches, scene, solution, *corners, normals, gather);
   if (!picture.ok()) return picture.status();
-  return Lit{*std::move(corners), *std::move(picture)};
+  return Lit{*std::move(corners), normals, *std::move(picture)};
 }
 
 // The files that are made of one picture, and run.json, which says how it was taken.
@@ -68,7 +69,8 @@ absl::Status WritePictures(const std::string& folder, const RunRecord& record,
                                                 record.scene.get()));
   }
   if (status.ok() && record.atlas) {
-    status = WriteLightmap(stem, record, lit->corners, picture.exposure, view);
+    status =
+        WriteLightmap(stem, record, lit->corners, picture.exposure, view, lit->normals, gather);
   }
   if (status.ok()) {
     status = WriteOutputFile(folder + "/run.json",

@@ -23,8 +23,8 @@ struct OutputFiles {
 // that are not asked for are left as they are. With an atlas in the record the files of its
 // lightmap, too (lightmap_files.h). convergence.csv is not written here: ConvergenceLog appends to
 // it while the run goes. Fails with OUTPUT_FAILED naming the file (disk full, no right to write).
-// With `gather`, the light of pictures and of NAME.glb is gathered at their own points; patches.csv
-// stays the solution's. Fails as `gather` does. Requires: record.patches and
+// With `gather`, the light of pictures, of NAME.glb and of lightmaps is gathered at their own
+// points; patches.csv stays the solution's. Fails as `gather` does. Requires: record.patches and
 // record.snapshot.solution are set and about the same patches; with record.atlas, record.scene.
 absl::Status WriteOutputs(const std::string& folder, const RunRecord& record,
                           const OutputFiles& files = {}, const GatherFunction& gather = nullptr);

@@ -128,6 +128,29 @@ TEST(WriteLightmap, ItsFilesShowTheLight) {
   EXPECT_GT(ReadFile(folder + "/room.irradiance.exr").size(), 1000u);
 }
 
+TEST(WriteLightmap, TexelsAreGatheredAtTheirOwnPoints) {
+  RunRecord record = LightmapRecord(TexturedScene(), {32});
+  const Vec3 origin = record.patches->origin;
+  const GatherFunction gather = [origin](const GatherPoints& points) -> absl::StatusOr<Gathered> {
+    Gathered light;
+    for (const Vec3& p : points.position_m) {
+      light.irradiance_lx.push_back({2 + p.x + origin.x, 2, 2});
+    }
+    light.std_error_lx.resize(points.size());
+    return light;
+  };
+  const std::string folder = TestFolder();
+  ASSERT_TRUE(WriteOutputs(folder, record, {}, gather).ok());
+  const Json run = Json::parse(ReadFile(folder + "/run.json"));
+  const Exposure exposure{run["picture"]["exposure_per_lm_per_m2"]};
+  ForEachMiddle(Reloaded(folder + "/room.lightmapped.glb"), 1, [&](Vec3 p, Vec3 normal, Rgb seen) {
+    // Half a texel of 1/32 m, and 8 bits.
+    ExpectClose(seen, ExpectedAt(p, normal, exposure), 0.02, p);
+  });
+  const GatherFunction fails = [](const GatherPoints&) { return absl::CancelledError("stopped"); };
+  EXPECT_EQ(WriteOutputs(folder, record, {}, fails).code(), absl::StatusCode::kCancelled);
+}
+
 TEST(WriteLightmap, PagesAreNumbered) {
   const RunRecord record = LightmapRecord(MakeCornell(), {16, 64});
   ASSERT_GT(record.atlas->pages.size(), 1u);
