@@ -90,13 +90,13 @@ absl::StatusOr<std::vector<std::string>> DrawPictures(const BenchResult& result,
   const View detail = result.region_nodes.empty() ? Enlarged(whole, kEnlargement)
                                                   : CloseUp(whole, RegionBounds(result));
   const std::vector<Shown> shown = WhatIsShown(result);
-  std::optional<Exposure> exposure;  // of the whole reference, for all
+  PictureOptions options;  // the exposure of the whole reference, for all
   Picture picture;
   for (const Shown& one : shown) {
     const auto flat = FlatIrradiance(one.solution->irradiance_lx);
     for (const auto& [part, view] : {std::pair{"whole", whole}, {"detail", detail}}) {
-      picture = DrawPicture(view, patches, **scene, *one.solution, flat, kLongerSide, exposure);
-      exposure = picture.exposure;
+      picture = DrawPicture(view, patches, **scene, *one.solution, flat, kLongerSide, options);
+      options.exposure_per_lm_per_m2 = picture.exposure.per_lm_per_m2;
       absl::Status status =
           WriteOutputFile(fmt::format("{}/{}_{}.png", folder, one.stem, part),
                           EncodePng(picture.width, picture.height, picture.display));

@@ -280,7 +280,7 @@ void AddJsonOption(CLI::App& command, Draft& draft) {
 void AddBenchOptions(CLI::App& command, Draft& draft) {
   BenchOptions& bench = draft.options.bench;
   RemoveOptions(command, {"SCENE", "--outputs", "--final-gather", "--sensors", "--work-plane",
-                          "--method", "--max-error", "--quality"});
+                          "--tone-map", "--exposure", "--method", "--max-error", "--quality"});
   for (const char* budget : {"--max-rays", "--max-time"}) command.get_option(budget)->group(kBench);
   command.add_option("SCENE", bench.scenes, ".glb or .gltf files; several get a folder each")
       ->option_text("(required)")

@@ -57,6 +57,7 @@ struct Options {
   std::string job;                     // watch, fetch, cancel, delete: "solveJobs/ID"
   std::string out_folder;              // bake, fetch, bench
   OutputFiles outputs;                 // bake, fetch
+  PictureOptions picture;              // bake, fetch
   bool lightmap = false;               // bake
   LightmapOptions lightmap_options;
   int final_gather_rays = 0;      // bake, fetch: a point; 0: none

@@ -1,3 +1,6 @@
+#include <cmath>
+
+#include "absl/strings/numbers.h"
 #include "app/option_checks.h"
 #include "app/option_groups.h"
 #include "fmt/format.h"
@@ -6,6 +9,42 @@ namespace lambert::app {
 namespace {
 
 constexpr char kLightmap[] = "Lightmap";
+constexpr char kPicture[] = "Picture";
+constexpr double kMostEv = 100;  // either way; sunlit snow is 16, starlight -8
+
+void AddPictureOptions(CLI::App& command, Draft& draft) {
+  PictureOptions& picture = draft.options.picture;
+  command
+      .add_option_function<std::string>(
+          "--tone-map",
+          [&picture](const std::string& name) {
+            picture.tone_map = name == "linear" ? ToneMap::kLinear : ToneMap::kFilmic;
+          },
+          "of the picture and the colours of the GLB: filmic (default: highlights are rolled off)\n"
+          "or linear (cut off at white)")
+      ->option_text("NAME")
+      ->check(OneOf({"filmic", "linear"}))
+      ->group(kPicture);
+  command
+      .add_option_function<std::string>(
+          "--exposure",
+          [&picture](const std::string& text) {
+            double ev100 = 0;
+            const bool is_number = absl::SimpleAtod(text, &ev100);
+            picture.exposure_per_lm_per_m2 = is_number ? ExposureOfEv100(ev100) : 0;
+          },
+          "exposure value at ISO 100: white is 1.2 * 2^EV cd/m2; auto (default): from the picture")
+      ->option_text("EV")
+      ->check(Check([](std::string& text) -> std::string {
+        double ev100 = 0;
+        if (text == "auto" || (absl::SimpleAtod(text, &ev100) && std::abs(ev100) <= kMostEv)) {
+          return "";
+        }
+        return fmt::format("'{}' is neither auto nor a number from -{} to {}", text, kMostEv,
+                           kMostEv);
+      }))
+      ->group(kPicture);
+}
 
 }  // namespace
 
@@ -43,6 +82,7 @@ void AddOutputOptions(CLI::App& command, Draft& draft) {
                   "a grid of sensors over each floor, so many metres above it (EN 12464-1)")
       ->option_text("HEIGHT")
       ->check(NumberFrom(0));
+  AddPictureOptions(command, draft);
 }
 
 void AddLightmapOptions(CLI::App& command, Draft& draft) {

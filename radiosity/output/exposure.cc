@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 
 namespace lambert {
 namespace {
@@ -13,6 +14,8 @@ constexpr double kBrightLimit = 0.7;   // display value that 95 % of the lit pic
 constexpr double kEmittedLevel = 0.8;  // of the brightest emitter, where nothing reflects
 // Pixels darker than this part of the brightest do not count as lit.
 constexpr double kLitShare = 1e-4;
+
+constexpr double kSaturation = 1.2;  // luminance of white at EV 0 [cd/m2]
 
 constexpr double kRollOffStart = 0.8;
 constexpr double kDesaturation = 0.15;
@@ -29,6 +32,18 @@ std::vector<double> LitLuminances(const std::vector<Rgb>& values) {
 }
 
 }  // namespace
+
+const char* ToneMapName(ToneMap tone_map) {
+  return tone_map == ToneMap::kFilmic ? "filmic" : "linear";
+}
+
+double Ev100Of(double exposure_per_lm_per_m2) {
+  return -std::log2(kSaturation * std::numbers::pi * exposure_per_lm_per_m2);
+}
+
+double ExposureOfEv100(double ev100) {
+  return std::exp2(-ev100) / (kSaturation * std::numbers::pi);
+}
 
 Exposure ChooseExposure(const std::vector<Rgb>& reflected, const std::vector<Rgb>& emitted) {
   std::vector<double> lit = LitLuminances(reflected);
@@ -52,6 +67,9 @@ Rgb Develop(Rgb radiosity_lm_per_m2, const Exposure& exposure) {
   Rgb value = radiosity_lm_per_m2 * exposure.per_lm_per_m2;
   for (int channel = 0; channel < 3; ++channel) {
     value[channel] = std::clamp(value[channel], 0.0, kBrightest);
+  }
+  if (exposure.tone_map == ToneMap::kLinear) {
+    return {std::min(value.r, 1.0), std::min(value.g, 1.0), std::min(value.b, 1.0)};
   }
   const double peak = std::max({value.r, value.g, value.b});
   if (peak <= kRollOffStart) return value;

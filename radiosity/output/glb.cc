@@ -142,9 +142,11 @@ absl::StatusOr<std::string> EncodeGlb(const PatchSet& patches,
   writer.AddCamera(view, patches);
   writer.root()["asset"]["extras"] = {
       {"exposure_per_lm_per_m2", exposure.per_lm_per_m2},
+      {"exposure_ev100", Ev100Of(exposure.per_lm_per_m2)},
+      {"tone_map", ToneMapName(exposure.tone_map)},
       {"color_0",
-       "radiosity times exposure, highlights over .8 rolled off; what multiplies the base texture "
-       "where there is one"},
+       "radiosity times exposure, through the tone map; what multiplies the base texture where "
+       "there is one"},
       {"irradiance_unit", "lx"}};
   return writer.Finish();
 }

@@ -74,7 +74,7 @@ absl::StatusOr<std::string> EncodeLightmappedGlb(const Scene& scene, const Patch
   writer.AddCamera(view, patches);
   writer.root()["asset"]["extras"] = {
       {"exposure_per_lm_per_m2", exposure.per_lm_per_m2},
-      {"base_color", "radiosity times exposure, highlights over .8 rolled off"}};
+      {"base_color", "radiosity times exposure, through the tone map"}};
   return writer.Finish();
 }
 

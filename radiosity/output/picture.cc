@@ -119,7 +119,7 @@ std::vector<Sample> SeeMiddles(const Painter& painter, const Picture& picture) {
 }
 
 // Fills the picture with them; the exposure is from what they see where none is given.
-void DrawMiddles(const std::vector<Sample>& samples, const std::optional<Exposure>& exposure,
+void DrawMiddles(const std::vector<Sample>& samples, const PictureOptions& options,
                  Picture& picture) {
   std::vector<Rgb> reflected, emitted;
   for (size_t pixel = 0; pixel < samples.size(); ++pixel) {
@@ -131,7 +131,9 @@ void DrawMiddles(const std::vector<Sample>& samples, const std::optional<Exposur
     reflected.push_back(sample.radiosity - sample.emitted);
     emitted.push_back(sample.emitted);
   }
-  picture.exposure = exposure ? *exposure : ChooseExposure(reflected, emitted);
+  picture.exposure = options.exposure_per_lm_per_m2 > 0 ? Exposure{options.exposure_per_lm_per_m2}
+                                                        : ChooseExposure(reflected, emitted);
+  picture.exposure.tone_map = options.tone_map;
   for (size_t pixel = 0; pixel < samples.size(); ++pixel) {
     picture.display[pixel] = Display(samples[pixel], picture.exposure);
   }
@@ -197,11 +199,11 @@ void RefineRoughPixels(const Painter& painter, Picture& picture) {
 Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& scene,
                     const Solution& solution,
                     const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx, int longer_side,
-                    const std::optional<Exposure>& exposure) {
+                    const PictureOptions& options) {
   Picture picture;
   SetSize(view, longer_side, picture);
   const Painter painter(view, patches, scene, solution, corner_irradiance_lx);
-  DrawMiddles(SeeMiddles(painter, picture), exposure, picture);
+  DrawMiddles(SeeMiddles(painter, picture), options, picture);
   RefineRoughPixels(painter, picture);
   return picture;
 }
@@ -210,7 +212,7 @@ absl::StatusOr<Picture> DrawGatheredPicture(
     const View& view, const PatchSet& patches, const RayScene& scene, const Solution& solution,
     const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
     const std::vector<std::array<Vec3, 3>>& corner_normals, const GatherFunction& gather,
-    int longer_side) {
+    int longer_side, const PictureOptions& options) {
   Picture picture;
   SetSize(view, longer_side, picture);
   Painter painter(view, patches, scene, solution, corner_irradiance_lx);
@@ -230,7 +232,7 @@ absl::StatusOr<Picture> DrawGatheredPicture(
   for (Sample& sample : samples) {
     if (sample.patch != kNoPatch) painter.Light(gathered->irradiance_lx[next++], sample);
   }
-  DrawMiddles(samples, std::nullopt, picture);
+  DrawMiddles(samples, options, picture);
   painter.SetGathered(std::move(samples));
   RefineRoughPixels(painter, picture);
   return picture;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -27,14 +26,15 @@ struct Picture {
   std::vector<Rgb> std_error_lm_per_m2;
 };
 
+inline constexpr int kPictureSide = 960;  // pixels
+
 // Draws a picture whose longer side has `longer_side` pixels: one ray a pixel, 16 where neighbours
 // differ. Irradiance is interpolated between corners (`corner_irradiance_lx`, from
-// SmoothIrradiance); reflectance and exitance stay the patch's. Without an `exposure` one is chosen
-// from the picture itself.
+// SmoothIrradiance); reflectance and exitance stay the patch's.
 Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& scene,
                     const Solution& solution,
                     const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
-                    int longer_side = 960, const std::optional<Exposure>& exposure = std::nullopt);
+                    int longer_side = kPictureSide, const PictureOptions& options = {});
 
 // The same where the irradiance of each pixel is gathered at what its middle sees, with the normal
 // interpolated between corners (SmoothNormals). The other rays of a pixel take that of the nearest
@@ -44,7 +44,7 @@ absl::StatusOr<Picture> DrawGatheredPicture(
     const View& view, const PatchSet& patches, const RayScene& scene, const Solution& solution,
     const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
     const std::vector<std::array<Vec3, 3>>& corner_normals, const GatherFunction& gather,
-    int longer_side = 960);
+    int longer_side = kPictureSide, const PictureOptions& options = {});
 
 // Corner irradiance for DrawPicture that shows every patch flat, as it was solved.
 std::vector<std::array<Rgb, 3>> FlatIrradiance(const std::vector<Rgb>& irradiance_lx);

@@ -91,7 +91,9 @@ std::string Legend(const LuxScale& scale, const UnitNames& units) {
 std::string Pictures(const ReportPictures& pictures, const UnitNames& units) {
   return "<figure>" + Image(pictures.png, "the solved scene") + "<figcaption>Radiosity from " +
          EscapeHtml(pictures.view.origin) + "; exposure " +
-         RoundedText(pictures.exposure.per_lm_per_m2, 3) + " per " + units.radiosity +
+         RoundedText(pictures.exposure.per_lm_per_m2, 3) + " per " + units.radiosity + " (EV " +
+         RoundedText(Ev100Of(pictures.exposure.per_lm_per_m2), 3) + "), tone map " +
+         ToneMapName(pictures.exposure.tone_map) +
          ".</figcaption></figure><h2>Irradiance</h2><figure>" +
          Image(pictures.false_color_png, "irradiance in false colours") +
          Legend(pictures.scale, units) + "</figure>";

@@ -102,7 +102,10 @@ Json PictureJson(const RunRecord& record, const PictureFacts& picture) {
   return {{"view", view.origin},
           {"eye_m", {eye.x, eye.y, eye.z}},
           {"looks_along", {way.x, way.y, way.z}},
-          {"exposure_per_lm_per_m2", picture.exposure.per_lm_per_m2}};
+          {"exposure_by", record.picture_options.exposure_per_lm_per_m2 > 0 ? "option" : "auto"},
+          {"exposure_per_lm_per_m2", picture.exposure.per_lm_per_m2},
+          {"exposure_ev100", Ev100Of(picture.exposure.per_lm_per_m2)},
+          {"tone_map", ToneMapName(picture.exposure.tone_map)}};
 }
 
 Json LightmapJson(const Atlas& atlas) {

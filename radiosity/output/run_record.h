@@ -10,6 +10,7 @@
 #include "radiosity/lightmap/atlas.h"
 #include "radiosity/output/compare.h"
 #include "radiosity/output/convergence.h"
+#include "radiosity/output/exposure.h"
 #include "radiosity/output/sensors.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/patch/patch_set.h"
@@ -28,6 +29,7 @@ struct RunRecord {
       scene;  // that they were built of, in metres; null where it is not at hand
   std::shared_ptr<const Atlas> atlas;  // of both; null where no lightmap is wanted
   PatchOptions patch_options;
+  PictureOptions picture_options;
   Plan plan;          // with the options that were used
   Snapshot snapshot;  // the last one; its solution is not null
   StopReason stop_reason = StopReason::kNone;

@@ -35,14 +35,16 @@ absl::StatusOr<Lit> LightPicture(const View& view, const RunRecord& record, cons
   Lit lit;
   if (gather == nullptr) {
     lit.corners = SmoothIrradiance(patches, fans, solution.irradiance_lx);
-    lit.picture = DrawPicture(view, patches, scene, solution, lit.corners);
+    lit.picture = DrawPicture(view, patches, scene, solution, lit.corners, kPictureSide,
+                              record.picture_options);
     return lit;
   }
   const std::vector<std::array<Vec3, 3>> normals = SmoothNormals(patches, fans);
   absl::StatusOr<CornerLight> corners = GatherCorners(patches, fans, normals, gather);
   if (!corners.ok()) return corners.status();
   absl::StatusOr<Picture> picture =
-      DrawGatheredPicture(view, patches, scene, solution, *corners, normals, gather);
+      DrawGatheredPicture(view, patches, scene, solution, *corners, normals, gather, kPictureSide,
+                          record.picture_options);
   if (!picture.ok()) return picture.status();
   return Lit{*std::move(corners), normals, *std::move(picture)};
 }

@@ -160,6 +160,24 @@ TEST(CommandLine, OutputsAreAllOrThoseThatAreNamed) {
             "--outputs: 'jpg' is not one of csv, glb, exr, png, report; see lambert bake --help");
 }
 
+TEST(CommandLine, AnExposureIsAutomaticOrAnExposureValue) {
+  const PictureOptions plain = Good({"bake", "a.glb", "-o", "out"}).picture;
+  EXPECT_EQ(plain.tone_map, ToneMap::kFilmic);
+  EXPECT_EQ(plain.exposure_per_lm_per_m2, 0);
+  const PictureOptions given = Good({"fetch", "solveJobs/a", "--server", "h:1", "-o", "out",
+                                     "--exposure", "-2.5", "--tone-map", "linear"})
+                                   .picture;
+  EXPECT_EQ(given.tone_map, ToneMap::kLinear);
+  EXPECT_DOUBLE_EQ(given.exposure_per_lm_per_m2, ExposureOfEv100(-2.5));
+  EXPECT_EQ(
+      Good({"bake", "a.glb", "-o", "out", "--exposure", "auto"}).picture.exposure_per_lm_per_m2, 0);
+  EXPECT_EQ(Bad({"bake", "a.glb", "-o", "out", "--exposure", "101"}),
+            "--exposure: '101' is neither auto nor a number from -100 to 100; see lambert bake "
+            "--help");
+  EXPECT_EQ(Bad({"bake", "a.glb", "-o", "out", "--tone-map", "aces"}),
+            "--tone-map: 'aces' is not one of filmic, linear; see lambert bake --help");
+}
+
 TEST(CommandLine, QualityIsAWantedErrorByName) {
   EXPECT_EQ(Good({"plan", "a.glb", "--quality", "preview"}).solve.max_error, 0.1);
   EXPECT_EQ(Good({"bake", "a.glb", "-o", "x"}).final_gather_rays, 0);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
 namespace lambert {
 namespace {
@@ -45,6 +46,22 @@ TEST(ChooseExposure, DarknessIsExposedByOne) {
 TEST(Develop, IsLinearUpToTheRollOff) {
   const Rgb value = Develop({0.1, 0.4, 0.8}, {1});
   EXPECT_EQ(value, (Rgb{0.1, 0.4, 0.8}));
+}
+
+TEST(Develop, LinearCutsOffAtWhite) {
+  const Exposure linear{2, ToneMap::kLinear};
+  EXPECT_EQ(Develop({0.1, 0.45, 0.5}, linear), (Rgb{0.2, 0.9, 1}));
+  EXPECT_EQ(Develop({0.25, 3, 1e300}, linear), (Rgb{0.5, 1, 1}));
+}
+
+TEST(ExposureValue, IsThatOfCameras) {
+  // At EV 0 a luminance of 1.2 cd/m2 is white; each EV halves the exposure.
+  EXPECT_NEAR(Develop(Gray(1.2 * std::numbers::pi), {ExposureOfEv100(0), ToneMap::kLinear}).g, 1,
+              1e-15);
+  EXPECT_DOUBLE_EQ(ExposureOfEv100(5), ExposureOfEv100(4) / 2);
+  for (double ev100 : {-100.0, -3.25, 15.0, 100.0}) {
+    EXPECT_NEAR(Ev100Of(ExposureOfEv100(ev100)), ev100, 1e-12);
+  }
 }
 
 TEST(Develop, IsContinuousAndRisesToWhite) {

@@ -54,9 +54,11 @@ TEST(DrawPicture, AnExposureThatIsGivenIsKept) {
   const auto scene = RayScene::Create(patches);
   ASSERT_TRUE(scene.ok());
   const Solution solution = LitBy(patches, [](Vec3) { return Rgb{8, 8, 8}; });
-  const Picture picture = DrawPicture(CameraView(patches.cameras[0]), patches, **scene, solution,
-                                      FlatIrradiance(solution.irradiance_lx), 60, Exposure{0.125});
+  const Picture picture =
+      DrawPicture(CameraView(patches.cameras[0]), patches, **scene, solution,
+                  FlatIrradiance(solution.irradiance_lx), 60, {ToneMap::kLinear, 0.125});
   EXPECT_EQ(picture.exposure.per_lm_per_m2, 0.125);
+  EXPECT_EQ(picture.exposure.tone_map, ToneMap::kLinear);
   EXPECT_NEAR(picture.display[20 * 60 + 30].g, 4 * 0.125, 1e-6);
 }
 

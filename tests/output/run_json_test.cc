@@ -69,6 +69,18 @@ TEST(EncodeRunJson, WithoutAPictureThereAreNoFactsOfIt) {
   EXPECT_FALSE(Json::parse(EncodeRunJson(record, PictureFacts{}))["picture"].is_null());
 }
 
+TEST(EncodeRunJson, TellsHowThePictureWasDeveloped) {
+  RunRecord record = SomeRecord();
+  const PictureFacts facts{{}, {ExposureOfEv100(3), ToneMap::kLinear}};
+  Json picture = Json::parse(EncodeRunJson(record, facts))["picture"];
+  EXPECT_EQ(picture["tone_map"], "linear");
+  EXPECT_NEAR(picture["exposure_ev100"].get<double>(), 3, 1e-12);
+  EXPECT_EQ(picture["exposure_by"], "auto");
+  record.picture_options.exposure_per_lm_per_m2 = facts.exposure.per_lm_per_m2;
+  picture = Json::parse(EncodeRunJson(record, facts))["picture"];
+  EXPECT_EQ(picture["exposure_by"], "option");
+}
+
 TEST(EncodeRunJson, AnInterruptedRunSaysSo) {
   RunRecord record = SomeRecord();
   record.interrupted = true;

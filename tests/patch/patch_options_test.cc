@@ -50,11 +50,13 @@ TEST(Blend, IsOpaqueOrLeftOutAndNamed) {
   const PatchSet opaque = *BuildPatches(scene, {});
   EXPECT_EQ(opaque.size(), 4);
   EXPECT_TRUE(named(opaque, "1 material(s) taken as opaque"));
-  const PatchSet omitted = *BuildPatches(scene, {.blend = Blend::kOmit});
+  PatchOptions omit;
+  omit.blend = Blend::kOmit;
+  const PatchSet omitted = *BuildPatches(scene, omit);
   EXPECT_EQ(omitted.size(), 2);
   EXPECT_TRUE(named(omitted, "1 material(s) left out"));
   scene.materials[0].blend = true;
-  const absl::Status nothing = BuildPatches(scene, {.blend = Blend::kOmit}).status();
+  const absl::Status nothing = BuildPatches(scene, omit).status();
   EXPECT_EQ(ReasonOf(nothing), "NO_TRIANGLES");
   EXPECT_NE(nothing.message().find("--blend opaque"), std::string::npos) << nothing;
 }
