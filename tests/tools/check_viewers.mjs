@@ -71,7 +71,7 @@ async function show(viewer, file, width, height) {
     clearTimeout(timer);
     browser.kill('SIGKILL');
     await ended;
-    rmSync(profile, {recursive: true, force: true, maxRetries: 5, retryDelay: 200});
+    rmSync(profile, {recursive: true, force: true, maxRetries: 20, retryDelay: 200});
   }
 }
 
