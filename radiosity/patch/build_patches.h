@@ -19,7 +19,7 @@ struct PatchOptions {
   double metres_per_unit = 1;                       // of the file's lengths, > 0; glTF's are metres
   Blend blend = Blend::kOpaque;                     // warned of either way (ALPHA_BLEND)
   int64_t max_patches = 20'000'000;                 // more: SCENE_TOO_LARGE
-  LightOptions lights = {};                              // beside those of the file
+  LightOptions lights = {};                         // beside those of the file
   // INVALID_ARGUMENT (reason FIELD_INVALID) naming the field that is out of range.
   absl::Status Validate() const;
 };
