@@ -16,7 +16,6 @@
 #include "fmt/format.h"
 #include "radiosity/core/error.h"
 #include "radiosity/output/convergence.h"
-#include "radiosity/output/sensors.h"
 #include "radiosity/output/write_outputs.h"
 #include "radiosity/patch/place.h"
 
@@ -58,6 +57,7 @@ class Bake {
   Interrupt& interrupt_;
   ProgressPrinter printer_;
   SceneBundle bundle_;
+  std::vector<SensorGrid> sensors_;
   Measurer measurer_;
   std::optional<ConvergenceLog> log_;
   Service service_;
@@ -88,9 +88,9 @@ absl::Status Bake::Prepare() {
   if (absl::Status status = TestOutputFolder(options_.out_folder); !status.ok()) return status;
   absl::Status kept = CheckSceneIsKept(options_.scene_path, options_.out_folder);
   if (!kept.ok()) return kept;
-  if (!options_.sensors_path.empty()) {
-    if (auto sensors = ReadSensors(options_.sensors_path); !sensors.ok()) return sensors.status();
-  }
+  auto sensors = ReadOptionalSensors(options_);
+  if (!sensors.ok()) return sensors.status();
+  sensors_ = *std::move(sensors);
   auto measurer = Measurer::Create(options_.reference_path, options_.regions);
   if (!measurer.ok()) return measurer.status();
   measurer_ = *std::move(measurer);
@@ -215,15 +215,8 @@ absl::StatusOr<ExitCode> Bake::Finish(const client::Job& job) {
 absl::Status Bake::Write(const client::Job& job, RunRecord& record) {
   client::Client& client = *service_.client;
   const auto say = [this](const std::string& line) { printer_.Stage(line); };
-  const bool draws = options_.outputs.NeedPicture() || options_.lightmap;
-  record.final_gather_rays = draws ? options_.final_gather_rays : 0;
   interrupt_.OnFirst([&client] { client.Abort(); });
-  absl::Status status = AddSensors(client, job, options_, say, record);
-  if (status.ok()) {
-    status = WriteOutputs(
-        options_.out_folder, record, options_.outputs,
-        MakeGather(client, job, record.final_gather_rays, record.plan.options.seed, say));
-  }
+  absl::Status status = GatherAndWrite(client, job, options_, std::move(sensors_), say, record);
   interrupt_.OnFirst(nullptr);
   if (ReasonOf(status) != "INTERRUPTED") return status;
   printer_.Note("what is not gathered yet is left out");

@@ -7,6 +7,7 @@
 #include "app/service.h"
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
+#include "radiosity/output/run_json.h"
 
 namespace lambert::app {
 namespace {
@@ -137,27 +138,25 @@ Json BenchJson(const Options& options, const BenchResult& result) {
   for (const Warning& warning : result.warnings) {
     warnings.push_back({{"reason", warning.reason}, {"message", warning.message}});
   }
-  return {{"name", result.name},
-          {"folder", result.folder},
-          {"scene_digest", result.scene_digest},
-          {"patches", result.patches->size()},
-          {"versions", {{"lambert", LAMBERT_VERSION}}},
-          {"first_seed", options.solve.seed},
-          {"seeds", options.bench.seeds},
-          {"max_edge_m", options.patch.max_edge_m},
-          {"two_sided", options.patch.two_sided},
-          {"metres_per_unit", options.patch.metres_per_unit},
-          {"blend", options.patch.blend == Blend::kOpaque ? "opaque" : "omit"},
-          {"place", PlaceJson(options)},
-          {"regions", options.regions},
-          {"reference",
-           {{"origin", result.reference_origin},
-            {"file", result.reference_file},
-            {"residual", ResidualJson(result.reference.residual)}}},
-          {"interrupted", result.interrupted},
-          {"summary", summaries},
-          {"left_out", left_out},
-          {"warnings", warnings}};
+  Json json{{"name", result.name},
+            {"folder", result.folder},
+            {"scene_digest", result.scene_digest},
+            {"patches", result.patches->size()},
+            {"versions", {{"lambert", LAMBERT_VERSION}}},
+            {"first_seed", options.solve.seed},
+            {"seeds", options.bench.seeds},
+            {"place", PlaceJson(options)},
+            {"regions", options.regions},
+            {"reference",
+             {{"origin", result.reference_origin},
+              {"file", result.reference_file},
+              {"residual", ResidualJson(result.reference.residual)}}},
+            {"interrupted", result.interrupted},
+            {"summary", summaries},
+            {"left_out", left_out},
+            {"warnings", warnings}};
+  json.update(PatchOptionsJson(options.patch));
+  return json;
 }
 
 }  // namespace lambert::app

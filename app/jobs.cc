@@ -12,7 +12,7 @@
 #include "app/progress.h"
 #include "app/result.h"
 #include "radiosity/core/error.h"
-#include "radiosity/output/write_outputs.h"
+#include "radiosity/output/convergence.h"
 
 namespace lambert::app {
 namespace {
@@ -93,6 +93,8 @@ absl::StatusOr<ExitCode> RunFetch(const Options& options, Interrupt& interrupt) 
   if (absl::Status status = TestOutputFolder(options.out_folder); !status.ok()) return status;
   auto measurer = Measurer::Create(options.reference_path, options.regions);
   if (!measurer.ok()) return measurer.status();
+  auto sensors = ReadOptionalSensors(options);
+  if (!sensors.ok()) return sensors.status();
   auto connection = Connection::Open(options, interrupt);
   if (!connection.ok()) return connection.status();
   client::Client& client = (*connection)->client();
@@ -118,15 +120,8 @@ absl::StatusOr<ExitCode> RunFetch(const Options& options, Interrupt& interrupt) 
     if (absl::Status status = log->Append(row); !status.ok()) return status;
   }
   const auto say = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
-  absl::Status sensed = AddSensors(client, job, options, say, *record);
-  if (!sensed.ok()) return sensed;
-  record->final_gather_rays = options.outputs.NeedPicture() ? options.final_gather_rays : 0;
-  const GatherFunction gather =
-      MakeGather(client, job, record->final_gather_rays, record->plan.options.seed, say);
-  if (absl::Status status = WriteOutputs(options.out_folder, *record, options.outputs, gather);
-      !status.ok()) {
-    return status;
-  }
+  absl::Status written = GatherAndWrite(client, job, options, *std::move(sensors), say, *record);
+  if (!written.ok()) return written;
   PrintSummary(job, *record, options.out_folder, options.json);
   return ExitCode::kDone;
 }

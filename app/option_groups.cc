@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <map>
 #include <string>
 
 #include "app/bench_list.h"
@@ -74,11 +73,15 @@ void AddLimitOptions(CLI::App& command, Draft& draft) {
       "after splitting");
 }
 
-}  // namespace
+// Requires: a word that --scene-unit takes.
+double MetresOf(const std::string& unit) {
+  if (unit == "cm") return 0.01;
+  if (unit == "mm") return 0.001;
+  if (unit == "in") return 0.0254;
+  return unit == "ft" ? 0.3048 : 1;
+}
 
-// Metres of each --scene-unit.
-const std::map<std::string, double> kMetres = {
-    {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+}  // namespace
 
 const std::vector<std::string>& OptionsOfThisProcess() {
   static const auto& names =
@@ -137,7 +140,7 @@ void AddSceneOptions(CLI::App& command, Draft& draft) {
   command
       .add_option_function<std::string>(
           "--scene-unit",
-          [&patch](const std::string& unit) { patch.metres_per_unit = kMetres.at(unit); },
+          [&patch](const std::string& unit) { patch.metres_per_unit = MetresOf(unit); },
           "of the file's lengths: m (default, as glTF has it), cm, mm, in or ft")
       ->option_text("UNIT")
       ->check(OneOf({"m", "cm", "mm", "in", "ft"}))

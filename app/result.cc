@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "app/measures_text.h"
 #include "app/progress.h"
@@ -9,8 +10,9 @@
 #include "app/scene_files.h"
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
+#include "radiosity/gather/gather_points.h"
 #include "radiosity/output/output_file.h"
-#include "radiosity/output/sensors.h"
+#include "radiosity/output/write_outputs.h"
 
 namespace lambert::app {
 namespace {
@@ -71,6 +73,22 @@ nlohmann::ordered_json SummaryJson(const client::Job& job, const RunRecord& reco
   return summary;
 }
 
+// Gathers from the job's newest snapshot, `rays` a point. rays == 0: a function that is null.
+GatherFunction MakeGather(client::Client& client, const client::Job& job, int rays, uint64_t seed,
+                          std::function<void(const std::string&)> say) {
+  if (rays == 0) return nullptr;
+  return [&client, name = job.name, options = GatherOptions{rays, seed},
+          say = std::move(say)](const GatherPoints& points) {
+    say(fmt::format("gathering at {} points", points.size()));
+    double said_at_s = MonotonicSeconds();
+    return client.Gather(name, points, options, [&](size_t done, size_t total) {
+      if (MonotonicSeconds() - said_at_s < 1) return;
+      said_at_s = MonotonicSeconds();
+      say(fmt::format("gathered at {} of {} points", done, total));
+    });
+  };
+}
+
 }  // namespace
 
 absl::Status TestOutputFolder(const std::string& folder) {
@@ -103,40 +121,30 @@ absl::StatusOr<RunRecord> CollectRecord(client::Client& client, const client::Jo
   return record;
 }
 
-GatherFunction MakeGather(client::Client& client, const client::Job& job, int rays, uint64_t seed,
-                          std::function<void(const std::string&)> say) {
-  if (rays == 0) return nullptr;
-  return [&client, name = job.name, options = GatherOptions{rays, seed},
-          say = std::move(say)](const GatherPoints& points) {
-    say(fmt::format("gathering at {} points", points.size()));
-    double said_at_s = MonotonicSeconds();
-    return client.Gather(name, points, options, [&](size_t done, size_t total) {
-      if (MonotonicSeconds() - said_at_s < 1) return;
-      said_at_s = MonotonicSeconds();
-      say(fmt::format("gathered at {} of {} points", done, total));
-    });
-  };
+absl::StatusOr<std::vector<SensorGrid>> ReadOptionalSensors(const Options& options) {
+  if (options.sensors_path.empty()) return std::vector<SensorGrid>();
+  return ReadSensors(options.sensors_path);
 }
 
-absl::Status AddSensors(client::Client& client, const client::Job& job, const Options& options,
-                        std::function<void(const std::string&)> say, RunRecord& record) {
-  std::vector<SensorGrid> grids;
-  if (!options.sensors_path.empty()) {
-    auto read = ReadSensors(options.sensors_path);
-    if (!read.ok()) return read.status();
-    grids = *std::move(read);
-  }
+absl::Status GatherAndWrite(client::Client& client, const client::Job& job, const Options& options,
+                            std::vector<SensorGrid> sensors,
+                            const std::function<void(const std::string&)>& say, RunRecord& record) {
+  const uint64_t seed = record.plan.options.seed;
   if (options.work_plane_m > 0) {
     auto planes = WorkPlanes(*record.patches, options.work_plane_m);
     if (!planes.ok()) return planes.status();
-    grids.insert(grids.end(), planes->begin(), planes->end());
+    sensors.insert(sensors.end(), planes->begin(), planes->end());
   }
-  if (grids.empty()) return absl::OkStatus();
-  absl::Status gathered = GatherSensors(
-      *record.patches,
-      MakeGather(client, job, kSensorRays, record.plan.options.seed, std::move(say)), grids);
-  if (gathered.ok()) record.sensors = std::move(grids);
-  return gathered;
+  if (!sensors.empty()) {
+    const GatherFunction gather = MakeGather(client, job, kSensorRays, seed, say);
+    absl::Status gathered = GatherSensors(*record.patches, gather, sensors);
+    if (!gathered.ok()) return gathered;
+    record.sensors = std::move(sensors);
+  }
+  const bool draws = options.outputs.NeedPicture() || options.lightmap;
+  record.final_gather_rays = draws ? options.final_gather_rays : 0;
+  return WriteOutputs(options.out_folder, record, options.outputs,
+                      MakeGather(client, job, record.final_gather_rays, seed, say));
 }
 
 absl::StatusOr<ExitCode> ExitCodeOf(const client::Job& job) {

@@ -1,7 +1,6 @@
 // The result of a job: collected from the service, written to a folder, summed up.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -12,8 +11,8 @@
 #include "app/options.h"
 #include "client/client.h"
 #include "client/job.h"
-#include "radiosity/gather/gather_points.h"
 #include "radiosity/output/run_record.h"
+#include "radiosity/output/sensors.h"
 
 namespace lambert::app {
 
@@ -27,15 +26,16 @@ absl::Status TestOutputFolder(const std::string& folder);
 absl::StatusOr<RunRecord> CollectRecord(client::Client& client, const client::Job& job,
                                         std::shared_ptr<const PatchSet> patches);
 
-// Gathers from the job's newest snapshot on the service, `rays` a point; `say` is told of the
-// progress, a line a second at most. rays == 0: a function that is null.
-GatherFunction MakeGather(client::Client& client, const client::Job& job, int rays, uint64_t seed,
-                          std::function<void(const std::string&)> say);
+// The sensors of the options' file, none without one: ReadSensors.
+absl::StatusOr<std::vector<SensorGrid>> ReadOptionalSensors(const Options& options);
 
-// Gathers at the sensors that the options name, into `record`. SENSORS_INVALID, FILE_NOT_FOUND, and
-// what a gather fails with.
-absl::Status AddSensors(client::Client& client, const client::Job& job, const Options& options,
-                        std::function<void(const std::string&)> say, RunRecord& record);
+// Writes the files that the options ask for. What has to be gathered for them is, on the service,
+// from the job's newest snapshot: at `sensors` and on the work planes of the options, and where
+// light is drawn. `say` is told of the progress, a line a second at most. SENSORS_INVALID, and what
+// a gather and WriteOutputs fail with.
+absl::Status GatherAndWrite(client::Client& client, const client::Job& job, const Options& options,
+                            std::vector<SensorGrid> sensors,
+                            const std::function<void(const std::string&)>& say, RunRecord& record);
 
 // What an ended job means for the command that waited for it: an error for a failed one,
 // kInterrupted for a cancelled one, kBudgetSpent where a wanted error was not reached.

@@ -1,6 +1,5 @@
 #include "radiosity/output/lightmap_files.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -44,26 +43,21 @@ std::string DrawPage(const TexelReader& reader, const TexelPage& page,
 absl::StatusOr<TexelValues> GatherTexels(const TexelPage& page, const PatchSet& patches,
                                          const std::vector<std::array<Vec3, 3>>& corner_normals,
                                          const GatherFunction& gather) {
-  TexelValues values(page.texels.size());
-  std::vector<size_t> places;
-  for (size_t i = 0; i < values.size(); ++i) {
-    if (page.texels[i].patch != kNoPatch) places.push_back(i);
+  GatherPoints points;
+  for (const Texel& texel : page.texels) {
+    if (texel.patch == kNoPatch) continue;
+    const auto& [n0, n1, n2] = corner_normals[texel.patch];
+    const double u = texel.u, v = texel.v;
+    points.Add(TexelPoint(patches, texel), Normalized(n0 * (1 - u - v) + n1 * u + n2 * v));
   }
-  for (size_t begin = 0; begin < places.size(); begin += kMaxGatherPoints) {
-    const size_t end = std::min(places.size(), begin + kMaxGatherPoints);
-    GatherPoints points;
-    for (size_t k = begin; k < end; ++k) {
-      const Texel& texel = page.texels[places[k]];
-      const auto& [n0, n1, n2] = corner_normals[texel.patch];
-      const double u = texel.u, v = texel.v;
-      points.Add(TexelPoint(patches, texel), Normalized(n0 * (1 - u - v) + n1 * u + n2 * v));
-    }
-    const absl::StatusOr<Gathered> gathered = gather(points);
-    if (!gathered.ok()) return gathered.status();
-    for (size_t k = begin; k < end; ++k) {
-      const Rgb light = gathered->irradiance_lx[k - begin];
-      values[places[k]] = {FloatValue(light.r), FloatValue(light.g), FloatValue(light.b)};
-    }
+  const absl::StatusOr<Gathered> gathered = gather(points);
+  if (!gathered.ok()) return gathered.status();
+  TexelValues values(page.texels.size());
+  size_t next = 0;
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (page.texels[i].patch == kNoPatch) continue;
+    const Rgb light = gathered->irradiance_lx[next++];
+    values[i] = {FloatValue(light.r), FloatValue(light.g), FloatValue(light.b)};
   }
   return values;
 }

@@ -35,13 +35,8 @@ Json OptionsJson(const SolveOptions& solve, const PatchOptions& patch) {
             {"max_time_s", solve.max_time_s},
             {"unsent_tolerance", solve.unsent_tolerance},
             {"max_steps", solve.max_steps},
-            {"max_edge_m", patch.max_edge_m},
-            {"two_sided", patch.two_sided},
-            {"emission_unit", patch.emission_unit == EmissionUnit::kNit ? "nit" : "W/m2/sr"},
-            {"metres_per_unit", patch.metres_per_unit},
-            {"blend", patch.blend == Blend::kOpaque ? "opaque" : "omit"},
-            {"lights", LightsJson(patch.lights)},
             {"region", solve.shoot.region}};
+  json.update(PatchOptionsJson(patch));
   for (const ShootSetting& setting : ShootSettings()) {
     std::string key = setting.name;
     std::replace(key.begin(), key.end(), '-', '_');
@@ -115,6 +110,15 @@ Json LightmapJson(const Atlas& atlas) {
 }
 
 }  // namespace
+
+Json PatchOptionsJson(const PatchOptions& options) {
+  return {{"max_edge_m", options.max_edge_m},
+          {"two_sided", options.two_sided},
+          {"emission_unit", options.emission_unit == EmissionUnit::kNit ? "nit" : "W/m2/sr"},
+          {"metres_per_unit", options.metres_per_unit},
+          {"blend", options.blend == Blend::kOpaque ? "opaque" : "omit"},
+          {"lights", LightsJson(options.lights)}};
+}
 
 Json PlanItemsJson(const Plan& plan) {
   Json items = Json::array();

@@ -10,6 +10,9 @@
 
 namespace lambert {
 
+// What a run's patches were asked to be.
+nlohmann::ordered_json PatchOptionsJson(const PatchOptions& options);
+
 // What is done and what is left out, item by item, as run.json and `lambert plan --json` have it.
 nlohmann::ordered_json PlanItemsJson(const Plan& plan);
 

@@ -9,7 +9,7 @@
 namespace lambert {
 
 // Of one object of the kind `object` (gltf_rules.h) in the file `root`. SceneError at `where`.
-// Requires: every property of both is as its rule says.
+// Requires: every property of `value`, and of the buffers of `root`, is as its rule says.
 absl::Status CheckRelations(const std::string& object, const nlohmann::json& value,
                             const nlohmann::json& root, const std::string& where);
 

@@ -40,8 +40,8 @@ constexpr GltfRule kRules[] = {
     Of(kObjects, "glTF", "images", "image"),
     Of(kObjects, "glTF", "samplers", "sampler"),
     Of(kObjects, "glTF", "accessors", "accessor"),
+    Of(kObjects, "glTF", "buffers", "buffer"),  // before the views, whose ends it bounds
     Of(kObjects, "glTF", "bufferViews", "buffer view"),
-    Of(kObjects, "glTF", "buffers", "buffer"),
     Of(kObjects, "glTF", "cameras", "camera"),
     Of(kObjects, "glTF", "skins", "skin"),
     Of(kObjects, "glTF", "animations", "animation"),
