@@ -11,8 +11,10 @@ namespace lambert {
 namespace {
 
 constexpr double kTolerance =
-    1e-8;  // of the light's flux, for each triangle that is not cut further
-constexpr int kLeastDepth = 3, kMostDepth = 9;
+    1e-10;  // of the light's flux, for each triangle that is not cut further
+constexpr int kLeastDepth = 3, kMostDepth = 16;
+// Larger parts, by edge over distance from the light, may hide what it does inside them.
+constexpr double kMostSize = 0.25;
 
 double AreaOf(const Triangle& t) { return 0.5 * Length(Cross(t[1] - t[0], t[2] - t[0])); }
 
@@ -58,7 +60,12 @@ double LightFraction::Quadrature(const Triangle& t, const Vec3& normal, double w
   double fine[4], sum = 0;
   for (int k = 0; k < 4; ++k) sum += fine[k] = Rule(parts[k], normal);
   if (depth >= kMostDepth) return sum;
-  if (depth >= kLeastDepth && std::fabs(sum - whole) < kTolerance) return sum;
+  const double edge_m = std::max({Length(t[1] - t[0]), Length(t[2] - t[1]), Length(t[0] - t[2])});
+  const double distance_m = Length((t[0] + t[1] + t[2]) / 3 - place());
+  if (depth >= kLeastDepth && edge_m < kMostSize * distance_m &&
+      std::fabs(sum - whole) < kTolerance) {
+    return sum;
+  }
   sum = 0;
   for (int k = 0; k < 4; ++k) sum += Quadrature(parts[k], normal, fine[k], depth + 1);
   return sum;

@@ -13,7 +13,7 @@ class LightFraction {
 
   // The fraction of the light's flux that arrives at the front of a triangle. In closed form for
   // lights that shine all around (solid angle / (4 pi)) and distant ones; else by quadrature, to
-  // about 1e-7 of the flux.
+  // 1e-6 of the flux.
   double Of(const Triangle& triangle) const;
   // The same per area at a point of a surface [1/m2].
   double Density(const Vec3& point, const Vec3& normal) const;

@@ -3,6 +3,7 @@
 #include <utility>
 
 namespace lambert {
+
 void ScaleInstances(double metres_per_unit, Scene& scene) {
   for (Instance& instance : scene.instances) {
     instance.world = Placement{{}, metres_per_unit}.Place(instance.world);

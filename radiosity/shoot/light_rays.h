@@ -22,7 +22,7 @@ class LightRays {
   // `box`: around the patches of `scene`.
   LightRays(const Light& light, const Bounds& box, const RayScene& scene);
 
-  //  // Appends rays [begin, end) of a visit to the batch. From a place they go with density by
+  // Appends rays [begin, end) of a visit to the batch. From a place they go with density by
   // intensity; of a distant light they enter the box around the scene through the faces that it
   // sees, evenly spread over the beam; of a sky they go with density by luminance, from anywhere on
   // the disk before the sphere around that box. Requires: room for them.

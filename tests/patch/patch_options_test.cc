@@ -5,6 +5,7 @@
 
 #include "radiosity/core/error.h"
 #include "radiosity/patch/build_patches.h"
+#include "radiosity/patch/place.h"
 #include "tests/support/scenes.h"
 
 namespace lambert {
@@ -31,6 +32,23 @@ TEST(SceneUnit, ScalesPlacesOfAllAndNoLight) {
   EXPECT_NEAR(Length(patches.cameras[0].world.translation - Vec3{0, 5, 0}), 0, 1e-12);
   EXPECT_NEAR(patches.cameras[0].half_height_m, 0.01, 1e-15);
   EXPECT_NEAR(EmittedFlux(patches).r, 2 + 28 * std::numbers::pi, 1e-9);
+}
+
+TEST(SceneUnit, ScalesWhatFilesShowAsPatches) {
+  Scene scene =
+      SceneMaker().Quad({100, 0, 0}, {0, 0, 100}, {100, 0, 0}, {{0.5, 0.5, 0.5}, {2, 2, 2}}).Make();
+  PatchOptions options;
+  options.metres_per_unit = 0.01;
+  const PatchSet patches = *BuildPatches(scene, options);
+  ScaleInstances(options.metres_per_unit, scene);
+  Bounds shown;
+  const absl::Status seen = ForEachTriangle(scene, {}, [&](const PlacedTriangle& triangle) {
+    for (const Vec3& corner : triangle.corners) shown.Add(corner - patches.origin);
+    return absl::OkStatus();
+  });
+  EXPECT_TRUE(seen.ok());
+  EXPECT_NEAR(Length(shown.low - BoundsOf(patches).low), 0, 1e-9);
+  EXPECT_NEAR(Length(shown.high - BoundsOf(patches).high), 0, 1e-9);
 }
 
 TEST(Blend, IsOpaqueOrLeftOutAndNamed) {

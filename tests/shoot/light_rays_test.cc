@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include "radiosity/scene/sky_map.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
@@ -97,6 +98,51 @@ TEST_F(LightRaysTest, OfADistantLightFillTheBeamThatTheBoxCatches) {
     const int along = static_cast<int>(std::floor((floor.x - low.x) / shadow * 10));
     const int across = static_cast<int>(std::floor((floor.z - low.z) / (high.z - low.z) * 8));
     ++counts[std::clamp(along, 0, 9) * 8 + std::clamp(across, 0, 7)];
+  });
+  EXPECT_LT(ChiSquared(counts, std::vector<double>(80, 1.0 / 80)), ChiSquaredQuantile(79));
+}
+
+// A quarter of the light goes to the lower half of the table, evenly in each.
+TEST_F(LightRaysTest, OfALampFollowItsTableAroundItsAxes) {
+  Light light{"", {0.1, 0.2, 0.3}, {1, 1, 1}, Light::Kind::kLamp};
+  light.x = {0, 0, 1};
+  light.y = {1, 0, 0};
+  light.z = {0, 1, 0};
+  light.table = *SphereTable::Create({false, 1, {-1, 0, 1}, {0, 1}, {1, 3}});
+  const Vec3 place = scene_->ToTrace(light.position);
+  std::vector<double> expected;
+  for (int slice = 0; slice < 8; ++slice) {
+    for (int k = 0; k < 6; ++k) expected.push_back((slice < 4 ? 0.25 : 0.75) / 24);
+  }
+  std::vector<int64_t> counts(expected.size());
+  ForRays(light, [&](Vec3 origin, Vec3 d) {
+    ASSERT_NEAR(Length(origin - place), 0, 1e-7);
+    const int slice = std::clamp(static_cast<int>((d.y + 1) * 4), 0, 7);
+    const int sector = std::clamp(static_cast<int>((std::atan2(d.x, d.z) + kPi) * 3 / kPi), 0, 5);
+    ++counts[slice * 6 + sector];
+  });
+  EXPECT_LT(ChiSquared(counts, expected), ChiSquaredQuantile(counts.size() - 1));
+}
+
+// Of each direction the rays are even over the disk that hides the sphere around the box.
+TEST_F(LightRaysTest, OfASkyComeFromAboveAndFillTheDiskBeforeTheScene) {
+  Light light{"", {}, {1, 1, 1}, Light::Kind::kSky};
+  light.x = kSkyX;
+  light.y = kSkyY;
+  light.z = kSkyZ;
+  light.table = UniformSky();
+  const Bounds box = BoundsOf(patches_);
+  const Vec3 center = scene_->ToTrace(box.Center());
+  const double radius = box.Diagonal() / 2 * scene_->scale();
+  std::vector<int64_t> counts(8 * 10);
+  ForRays(light, [&](Vec3 origin, Vec3 d) {
+    const Vec3 from = origin - center;
+    ASSERT_LT(Dot(from, d), -radius);
+    const Vec3 across = from - d * Dot(from, d);
+    const double part = Dot(across, across) / (radius * radius);
+    ASSERT_LT(part, 1 + 1e-5);
+    const int slice = std::clamp(static_cast<int>(-d.y * 8), 0, 7);
+    ++counts[slice * 10 + std::clamp(static_cast<int>(part * 10), 0, 9)];
   });
   EXPECT_LT(ChiSquared(counts, std::vector<double>(80, 1.0 / 80)), ChiSquaredQuantile(79));
 }
