@@ -1,10 +1,11 @@
-// gather_bench SCENE FINE_EDGE_M POINTS [RAYS]: how far gathered irradiance is from continuous
-// truth, beside that of constant patches; and what a gather's ray costs.
+// gather_bench SCENE FINE_EDGE_M POINTS [RAYS [EDGE_M...]]: how far gathered irradiance is from
+// continuous truth, beside that of constant patches; and what a gather's ray costs.
 //
 // The truth at points drawn evenly over the scene's surfaces: gathered with kTruthRays rays from a
 // solution of the scene split to FINE_EDGE_M; its residual is the difference of two such, of other
 // seeds, the second split to edges half again as long. Errors are RMS over the points of
 // reflectance times irradiance, over the mean of that. RAYS: of each of the solutions (2e7).
+// EDGE_M: other splits whose solutions are gathered from, with 1,024 rays.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "radiosity/core/philox.h"
 #include "radiosity/gather/gather.h"
 #include "radiosity/patch/build_patches.h"
@@ -125,7 +127,8 @@ class Judge {
   const std::vector<Rgb>& truth_;
 };
 
-void Run(const std::string& path, double fine_edge_m, size_t count, int64_t rays) {
+void Run(const std::string& path, double fine_edge_m, size_t count, int64_t rays,
+         const std::vector<double>& edges_m) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   const auto scene = LoadGltf({path.substr(path.rfind('/') + 1), bytes, {}});
@@ -154,6 +157,11 @@ void Run(const std::string& path, double fine_edge_m, size_t count, int64_t rays
                 gathered.rays_per_cpu_second, coarse.rays_per_cpu_second,
                 gathered.rays_per_cpu_second / coarse.rays_per_cpu_second);
   }
+  for (double edge_m : edges_m) {
+    const Solved split = Solve(*scene, edge_m, 4, rays);
+    judge.Print(absl::StrCat("edges of ", edge_m, " m, ", split.patches->size(), " patches"),
+                GatherFrom(split, origin, places.points, 1024).irradiance_lx);
+  }
 }
 
 }  // namespace
@@ -161,10 +169,12 @@ void Run(const std::string& path, double fine_edge_m, size_t count, int64_t rays
 
 int main(int argc, char** argv) {
   if (argc < 4) {
-    std::fprintf(stderr, "usage: gather_bench SCENE FINE_EDGE_M POINTS [RAYS]\n");
+    std::fprintf(stderr, "usage: gather_bench SCENE FINE_EDGE_M POINTS [RAYS [EDGE_M...]]\n");
     return 2;
   }
+  std::vector<double> edges_m;
+  for (int k = 5; k < argc; ++k) edges_m.push_back(std::atof(argv[k]));
   lambert::Run(argv[1], std::atof(argv[2]), static_cast<size_t>(std::atoll(argv[3])),
-               argc > 4 ? static_cast<int64_t>(std::atof(argv[4])) : 20'000'000);
+               argc > 4 ? static_cast<int64_t>(std::atof(argv[4])) : 20'000'000, edges_m);
   return 0;
 }
