@@ -19,8 +19,10 @@ done
 mkdir -p "$build" && find "$build" -name '*.gcda' -delete
 ninja -C "$build" -j "$(nproc)" "${tests[@]/#tests/radiosity}" "${tests[@]}" >&2
 
+# Slow tests call no function that others do not: they would take most of the time.
 for program in "${tests[@]}"; do
-  find "$build/${program%/all}" -maxdepth 1 -type f -executable -print0
+  find "$build/${program%/all}" -maxdepth 1 -type f -executable \
+    ! -name '*_slow_test' ! -name '*_corpus_test' -print0
 done | xargs -0 -P "$(nproc)" -I{} sh -c '"$1" --gtest_brief=1 >&2 || exit 255' run {}
 
 # gcov prints, for each object file, `Function 'NAME'` and `Lines executed:P% of N`. A name with a space
