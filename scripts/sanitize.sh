@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # scripts/sanitize.sh [PRESET [TEST...]]: builds test programs with sanitizers and runs them, one after the other. PRESET:
-# asan (default) or tsan. Without TEST: the tests of the reader of scenes; where the corpus of hostile
-# files is there, each of them too, in one process of 512 MiB. Ends with 1 where one fails.
+# asan (default) or tsan. Without TEST: the tests of the reader of scenes; those of compressed meshes again and, where
+# the corpus of hostile files is there, each of them, in processes of 512 MiB. Ends with 1 where one fails.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -24,4 +24,5 @@ run() {
 }
 for test in "${tests[@]}"; do run "$test"; done
 export ASAN_OPTIONS+=:hard_rss_limit_mb=512
+if ((${#hostile[@]} > 0)); then run scene_test --gtest_filter='Draco.*:Meshopt.*'; fi
 for test in "${hostile[@]}"; do run "$test" --gtest_filter='*Hostile*'; done

@@ -123,6 +123,23 @@ absl::StatusOr<Scene> GltfDocument::Load(const SceneLimits& limits) const {
   return LoadGltf({"test.glb", Glb(), {}}, limits);
 }
 
+std::vector<std::array<Vec3, 3>> Triangles(const Scene& scene) {
+  const Primitive& primitive = scene.meshes.at(0).primitives.at(0);
+  std::vector<std::array<Vec3, 3>> triangles;
+  for (const auto& t : primitive.triangles) {
+    triangles.push_back({FromFloats(primitive.positions[t[0]]),
+                         FromFloats(primitive.positions[t[1]]),
+                         FromFloats(primitive.positions[t[2]])});
+  }
+  return triangles;
+}
+
+double AreaOf(const std::vector<std::array<Vec3, 3>>& triangles) {
+  double area = 0;
+  for (const auto& [a, b, c] : triangles) area += Length(Cross(b - a, c - a)) / 2;
+  return area;
+}
+
 std::string MakePng(uint32_t width, uint32_t height, const std::string& codes) {
   std::string header;
   AppendBigEndian(width, 4, &header);

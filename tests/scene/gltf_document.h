@@ -50,6 +50,10 @@ class GltfDocument {
   std::string binary_;
 };
 
+// The corners of every triangle of the first mesh, in the order of the file, and their area.
+std::vector<std::array<Vec3, 3>> Triangles(const Scene& scene);
+double AreaOf(const std::vector<std::array<Vec3, 3>>& triangles);
+
 // An uncompressed RGBA PNG of one colour per pixel; `codes`: width * height * 4 values.
 std::string MakePng(uint32_t width, uint32_t height, const std::string& codes);
 
