@@ -25,6 +25,8 @@ constexpr KnownExtension kKnown[] = {
     {"EXT_lights_ies", Support::kRead},
     {"EXT_mesh_gpu_instancing", Support::kRead},
     {"EXT_meshopt_compression", Support::kRead},
+    {"EXT_texture_avif", Support::kCounted},
+    {"EXT_texture_webp", Support::kCounted},
     {"KHR_draco_mesh_compression", Support::kRead},
     {"KHR_lights_punctual", Support::kRead},
     {"KHR_materials_anisotropy", Support::kLeftOut},
@@ -42,7 +44,9 @@ constexpr KnownExtension kKnown[] = {
     {"KHR_materials_variants", Support::kLeftOut},
     {"KHR_materials_volume", Support::kLeftOut},
     {"KHR_mesh_quantization", Support::kRead},
+    {"KHR_texture_basisu", Support::kCounted},
     {"KHR_texture_transform", Support::kRead},
+    {"MSFT_texture_dds", Support::kCounted},
 };
 
 const KnownExtension* FindKnown(const std::string& name) {

@@ -63,7 +63,7 @@ absl::StatusOr<TextureUse> ReadTexture(const TextureInfo& info, const std::strin
   }
   absl::StatusOr<int> texture = textures->Load(info.index);
   if (!texture.ok()) return texture.status();
-  if (*texture < 0) unread->Add("image from an extension", "texture", "left out");
+  if (*texture < 0) unread->Add("images that are no PNG or JPEG", "texture", "left out");
   use.texture = *texture;
   return use;
 }

@@ -82,6 +82,29 @@ TEST(TextureCoordinates, OfAnySetAreRead) {
 
 using Colors = std::vector<std::array<float, 4>>;
 
+TEST(Textures, OfOtherFormatsAreReadByTheirFallback) {
+  for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"}) {
+    GltfDocument document;
+    const int texture = document.AddTexture(MakePng(1, 1, {64, 64, 64, 127}));
+    document.Material()["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture}};
+    const int other = document.AddViewBytes("of another format");
+    document.json["images"].push_back({{"bufferView", other}, {"mimeType", "image/webp"}});
+    document.json["textures"][texture]["extensions"][name] = {{"source", 1}};
+    absl::StatusOr<Scene> scene = document.Load();
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    EXPECT_EQ(scene->textures.size(), 1u);
+    EXPECT_TRUE(scene->warnings.empty());
+    document.json["textures"][texture].erase("source");
+    document.json["extensionsRequired"] = {name};
+    scene = document.Load();
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    EXPECT_TRUE(scene->textures.empty());
+    ASSERT_EQ(scene->warnings.size(), 1u);
+    EXPECT_EQ(scene->warnings[0].reason, "FEATURE_NOT_READ");
+    EXPECT_NE(scene->warnings[0].message.find("no PNG or JPEG (1 texture)"), std::string::npos);
+  }
+}
+
 TEST(VertexColours, OfEveryTypeAreRead) {
   GltfDocument document;
   const auto load = [&document](int accessor, bool normalized) {
