@@ -55,6 +55,26 @@ TEST(EncodeReport, ShowsPicturesChartSurfacesBalancePlanAndFacts) {
   EXPECT_TRUE(Has(ReportOf(record), "12.5\u2009%"));
 }
 
+TEST(EncodeReport, HasATableOfSensors) {
+  RunRecord record = SomeRecord();
+  EXPECT_FALSE(Has(ReportOf(record), "Sensors"));
+  const auto gray = [](double lx) { return Rgb{lx, lx, lx}; };
+  record.sensors.push_back({"desk <1>",
+                            std::vector<Vec3>(4),
+                            std::vector<Vec3>(4, {0, 1, 0}),
+                            {false, false, false, true},
+                            {gray(120), gray(230), gray(340), gray(9)},
+                            std::vector<Rgb>(4)});
+  const std::string page = ReportOf(record);
+  const size_t begin = page.find("<h2>Sensors</h2>");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string table = page.substr(begin, page.find("</table>", begin) - begin);
+  // Four sensors, mean 230, least 120, most 340, U0 = 120 / 230; one is inside a solid.
+  for (const char* cell : {"desk &lt;1&gt;", ">4<", ">230<", ">120<", ">340<", ">0.52<", ">1<"}) {
+    EXPECT_TRUE(Has(table, cell)) << cell << " in " << table;
+  }
+}
+
 TEST(EncodeReport, TellsWarnings) {
   RunRecord record = SomeRecord();
   PatchSet patches = *record.patches;
