@@ -226,7 +226,8 @@ absl::Status Bake::Write(const client::Job& job, RunRecord& record) {
 
 absl::Status Bake::AddScene(RunRecord& record) {
   if (!options_.outputs.glb && !options_.lightmap) return absl::OkStatus();
-  auto scene = LoadGltf(bundle_, options_.limits);
+  const Keep keep = options_.lightmap ? Keep::kAppearance : Keep::kLight;
+  auto scene = LoadGltf(bundle_, options_.limits, keep);
   if (!scene.ok()) return scene.status();
   if (!SourcesExist(*scene, *record.patches)) {
     return MakeError(absl::StatusCode::kDataLoss,

@@ -89,8 +89,8 @@ void AddLightmapOptions(CLI::App& command, Draft& draft) {
   LightmapOptions& lightmap = draft.options.lightmap_options;
   command
       .add_flag("--lightmap", draft.options.lightmap,
-                "an atlas on TEXCOORD_1: NAME.lightmapped.glb, NAME.irradiance.exr,\n"
-                "NAME.lightmap.json")
+                "an atlas on TEXCOORD_1: NAME.lightmapped.glb, NAME.lit.glb,\n"
+                "NAME.irradiance.exr, NAME.lightmap.json")
       ->group(kLightmap);
   command
       .add_option("--texels-per-meter", lightmap.texels_per_meter,

@@ -21,9 +21,10 @@ std::vector<std::string> ResultFiles(const RunRecord& record, const std::string&
   std::vector<std::string> files;
   for (const std::string& name :
        {std::string("report.html"), record.name + ".png", record.name + ".glb",
-        record.name + ".exr", record.name + ".lightmapped.glb", record.name + ".irradiance.exr",
-        record.name + ".lightmap.json", std::string("patches.csv"), std::string("sensors.csv"),
-        std::string("sensors.json"), std::string("convergence.csv"), std::string("run.json")}) {
+        record.name + ".exr", record.name + ".lightmapped.glb", record.name + ".lit.glb",
+        record.name + ".irradiance.exr", record.name + ".lightmap.json", std::string("patches.csv"),
+        std::string("sensors.csv"), std::string("sensors.json"), std::string("convergence.csv"),
+        std::string("run.json")}) {
     const auto path = std::filesystem::path(folder) / name;
     std::error_code error;
     if (std::filesystem::exists(path, error)) files.push_back(path.string());

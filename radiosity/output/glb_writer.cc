@@ -81,8 +81,13 @@ void GlbWriter::AddCamera(const View& view, const PatchSet& patches) {
         {r.x, r.y, r.z, 0, u.x, u.y, u.z, 0, back.x, back.y, back.z, 0, eye.x, eye.y, eye.z, 1}}});
 }
 
+void GlbWriter::UseExtension(const std::string& name) {
+  Json& used = root_["extensionsUsed"];
+  if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+}
+
 GlbWriter::Json GlbWriter::UnlitMaterial(const std::string& name) {
-  root_["extensionsUsed"] = {"KHR_materials_unlit"};
+  UseExtension("KHR_materials_unlit");
   return {{"name", name},
           {"extensions", {{"KHR_materials_unlit", Json::object()}}},
           {"pbrMetallicRoughness", {{"metallicFactor", 0}}},
@@ -129,8 +134,12 @@ size_t GlbWriter::AddIndices(const std::vector<uint32_t>& indices) {
 
 size_t GlbWriter::AddTexture(const std::string& bytes, const std::string& mime_type,
                              const Json& sampler) {
-  const size_t image = Add("images", {{"bufferView", AddBytes(bytes)}, {"mimeType", mime_type}});
+  const size_t image = AddImage(bytes, mime_type);
   return Add("textures", {{"source", image}, {"sampler", Add("samplers", sampler)}});
+}
+
+size_t GlbWriter::AddImage(const std::string& bytes, const std::string& mime_type) {
+  return Add("images", {{"bufferView", AddBytes(bytes)}, {"mimeType", mime_type}});
 }
 
 size_t GlbWriter::AddBytes(const std::string& bytes) {

@@ -31,6 +31,8 @@ class GlbWriter {
   void AddMeshNode(const PatchSet& patches, int32_t source_node, size_t mesh);
   // A node `view` where the picture was taken.
   void AddCamera(const View& view, const PatchSet& patches);
+  // Names an extension in `extensionsUsed`.
+  void UseExtension(const std::string& name);
   // KHR_materials_unlit, as it is named in the file's extensions.
   Json UnlitMaterial(const std::string& name);
 
@@ -40,8 +42,15 @@ class GlbWriter {
   size_t AddAttribute(size_t view, size_t offset, Type type, int components, size_t count);
   // The same for POSITION: float VEC3, with the range that glTF demands.
   size_t AddPositions(size_t view, const void* records, size_t count, size_t stride, size_t offset);
+  // A view and an accessor of N floats a vertex.
+  template <size_t N>
+  size_t AddFloats(const std::vector<std::array<float, N>>& values) {
+    const size_t view = AddVertices(values.data(), values.size(), sizeof(std::array<float, N>));
+    return AddAttribute(view, 0, Type::kFloat, N, values.size());
+  }
   size_t AddIndices(const std::vector<uint32_t>& indices);
-  // An image of its own bytes, with a texture that shows it.
+  // An image of its own bytes, and one with a texture that shows it.
+  size_t AddImage(const std::string& bytes, const std::string& mime_type);
   size_t AddTexture(const std::string& bytes, const std::string& mime_type, const Json& sampler);
   // A view of bytes as they are.
   size_t AddBytes(const std::string& bytes);

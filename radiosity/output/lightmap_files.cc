@@ -10,6 +10,8 @@
 #include "radiosity/output/exr.h"
 #include "radiosity/output/float_value.h"
 #include "radiosity/output/lightmap_glb.h"
+#include "radiosity/output/lightmap_image.h"
+#include "radiosity/output/lit_glb.h"
 #include "radiosity/output/output_file.h"
 #include "radiosity/output/png.h"
 
@@ -82,7 +84,7 @@ Json PrimitiveJson(const Scene& scene, const Atlas& atlas, const AtlasPart& part
 }
 
 Json Manifest(const std::string& name, const RunRecord& record, const std::vector<AtlasPart>& parts,
-              const Exposure& exposure) {
+              const std::vector<LightmapImages>& images, const Exposure& exposure) {
   const Atlas& atlas = *record.atlas;
   Json json;
   json["quantity"] = "E";
@@ -95,11 +97,13 @@ Json Manifest(const std::string& name, const RunRecord& record, const std::vecto
   json["padding_texels"] = kPadding;
   json["texture_coordinates"] = "TEXCOORD_1, (0, 0) at the upper left corner of the page";
   json["lightmapped"] = name + ".lightmapped.glb";
+  json["lit"] = name + ".lit.glb";
   json["pages"] = Json::array();
   for (size_t page = 0; page < atlas.pages.size(); ++page) {
     json["pages"].push_back({{"file", IrradianceFile(name, page)},
                              {"width", atlas.pages[page].width},
-                             {"height", atlas.pages[page].height}});
+                             {"height", atlas.pages[page].height},
+                             {"intensity", images[page].intensity}});
   }
   json["primitives"] = Json::array();
   for (const AtlasPart& part : parts) {
@@ -121,6 +125,7 @@ absl::Status WriteLightmap(const std::string& stem, const RunRecord& record,
   const absl::StatusOr<TexelReader> reader = TexelReader::Create(scene, patches, atlas);
   if (!reader.ok()) return reader.status();
   std::vector<std::string> pngs;
+  std::vector<LightmapImages> images;
   const std::vector<TexelPage> pages = FindTexels(scene, patches, atlas);
   for (size_t page = 0; page < pages.size(); ++page) {
     absl::StatusOr<TexelValues> light = TexelIrradiance(pages[page], corner_irradiance_lx);
@@ -132,18 +137,21 @@ absl::Status WriteLightmap(const std::string& stem, const RunRecord& record,
     if (!exr.ok()) return exr.status();
     absl::Status status = WriteOutputFile(IrradianceFile(stem, page), *exr);
     if (!status.ok()) return status;
+    images.push_back(EncodeLightmapImages(pages[page], *light));
   }
   const std::vector<AtlasPart> parts = PartsOf(atlas, SidesWithPatches(scene, patches, atlas));
-  const absl::StatusOr<std::string> glb =
-      EncodeLightmappedGlb(scene, patches, atlas, parts, pngs, exposure, view);
-  if (!glb.ok()) return glb.status();
-  absl::Status status = WriteOutputFile(stem + ".lightmapped.glb", *glb);
+  absl::Status status =
+      WriteIfOk(stem + ".lightmapped.glb",
+                EncodeLightmappedGlb(scene, patches, atlas, parts, pngs, exposure, view));
+  if (!status.ok()) return status;
+  status = WriteIfOk(stem + ".lit.glb",
+                     EncodeLitGlb(scene, patches, atlas, parts, images, exposure, view));
   if (!status.ok()) return status;
   const std::string name = std::filesystem::path(stem).filename().string();
-  return WriteOutputFile(
-      stem + ".lightmap.json",
-      Manifest(name, record, parts, exposure).dump(2, ' ', false, Json::error_handler_t::replace) +
-          "\n");
+  return WriteOutputFile(stem + ".lightmap.json",
+                         Manifest(name, record, parts, images, exposure)
+                                 .dump(2, ' ', false, Json::error_handler_t::replace) +
+                             "\n");
 }
 
 }  // namespace lambert

@@ -14,11 +14,12 @@
 
 namespace lambert {
 
-// Writes STEM.lightmapped.glb, STEM.irradiance.exr (and -2, -3, ... for more pages) and
-// STEM.lightmap.json, one after the other, as docs/formats.md says. `stem`: folder and name.
+// Writes STEM.lightmapped.glb, STEM.lit.glb, STEM.irradiance.exr (and -2, -3, ... for more pages)
+// and STEM.lightmap.json, one after the other, as docs/formats.md says. `stem`: folder and name.
 // With `gather` the light of each texel is gathered at its point; else it is linear between the
-// corners of patches. Fails as `gather` does. Requires: record.scene and record.atlas; light at the
-// corners of its patches [lx] and, with `gather`, normals there (gathered_light.h).
+// corners of patches. Fails as `gather` does. Requires: record.scene with its appearance, and
+// record.atlas; light at the corners of its patches [lx] and, with `gather`, normals there
+// (gathered_light.h).
 absl::Status WriteLightmap(const std::string& stem, const RunRecord& record,
                            const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
                            const Exposure& exposure, const View& view,

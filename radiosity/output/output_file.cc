@@ -93,6 +93,10 @@ absl::Status WriteOutputFile(const std::string& path, const std::string& bytes) 
   return file->Commit();
 }
 
+absl::Status WriteIfOk(const std::string& path, const absl::StatusOr<std::string>& bytes) {
+  return bytes.ok() ? WriteOutputFile(path, *bytes) : bytes.status();
+}
+
 absl::Status MakeOutputFolder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

@@ -30,6 +30,9 @@ class OutputFile {
 // Create, Append and Commit in one.
 absl::Status WriteOutputFile(const std::string& path, const std::string& bytes);
 
+// The same where there are bytes; else their error.
+absl::Status WriteIfOk(const std::string& path, const absl::StatusOr<std::string>& bytes);
+
 // The error that a failed system call left in errno, told about `path`.
 absl::Status OutputError(const std::string& path);
 

@@ -14,10 +14,6 @@
 namespace lambert {
 namespace {
 
-absl::Status WriteIfOk(const std::string& path, const absl::StatusOr<std::string>& bytes) {
-  return bytes.ok() ? WriteOutputFile(path, *bytes) : bytes.status();
-}
-
 using CornerLight = std::vector<std::array<Rgb, 3>>;
 
 // Irradiance at the corners of patches, and the picture in that light.

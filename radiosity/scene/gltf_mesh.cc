@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "radiosity/core/error.h"
 #include "radiosity/scene/gltf_accessor.h"
+#include "radiosity/scene/gltf_shading.h"
 #include "radiosity/scene/vertex_normals.h"
 
 namespace lambert {
@@ -37,7 +38,8 @@ std::array<uint64_t, 3> TriangleCorners(int mode, uint64_t t) {
 // The accessors of one primitive.
 struct Attributes {
   std::optional<AccessorReader> indices, positions, colors;
-  std::map<int, AccessorReader> uv;  // by set
+  std::map<int, AccessorReader> uv;      // by set
+  std::optional<ShadingReader> shading;  // where it is kept
 
   uint64_t ListedVertices() const { return indices ? indices->count() : positions->count(); }
 };
@@ -72,6 +74,20 @@ absl::Status OpenAttribute(const tinygltf::Model& model, const tinygltf::Primiti
     return SceneError(where, absl::StrCat("it has fewer ", name, " than positions"), kExportAgain);
   }
   return status;
+}
+
+// Adds what is kept beside what light needs: what cannot be read of it is left out.
+void OpenAppearance(const tinygltf::Model& model, const tinygltf::Primitive& gltf,
+                    Attributes* attributes) {
+  constexpr int kMostUvSets = 8;
+  for (int set = 0; set < kMostUvSets; ++set) {
+    if (attributes->uv.contains(set)) continue;
+    std::optional<AccessorReader> uv;
+    (void)OpenAttribute(model, gltf, absl::StrCat("TEXCOORD_", set), TINYGLTF_TYPE_VEC2,
+                        *attributes, "", &uv);
+    if (uv && uv->count() >= attributes->positions->count()) attributes->uv.emplace(set, *uv);
+  }
+  attributes->shading.emplace(model, gltf, attributes->positions->count());
 }
 
 // COLOR_0 has three components or four.
@@ -136,10 +152,12 @@ class VertexCopier {
       reader.Floats(i, uv.data());
       primitive_->uv[set].push_back(uv);
     }
-    if (attributes_.colors) {
-      absl::Status status = CopyColor(i, where);
-      if (!status.ok()) return status;
+    absl::Status status;
+    if (attributes_.colors) status = CopyColor(i, where);
+    if (status.ok() && attributes_.shading) {
+      status = attributes_.shading->Copy(i, positions_, where, primitive_);
     }
+    if (!status.ok()) return status;
     return next;
   }
 
@@ -212,7 +230,7 @@ void CountUnread(const tinygltf::Primitive& gltf, const Pose& pose, UnreadFeatur
 absl::StatusOr<Primitive> ReadPrimitive(const tinygltf::Model& model,
                                         const std::vector<Material>& materials,
                                         const tinygltf::Primitive& gltf, const std::string& where,
-                                        const Pose& pose, MeshBudget* budget,
+                                        const Pose& pose, Keep keep, MeshBudget* budget,
                                         UnreadFeatures* unread) {
   Primitive primitive;
   if (gltf.mode < TINYGLTF_MODE_POINTS || gltf.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
@@ -234,6 +252,7 @@ absl::StatusOr<Primitive> ReadPrimitive(const tinygltf::Model& model,
   absl::StatusOr<Attributes> attributes =
       OpenAttributes(model, gltf, UvSets(materials, gltf.material), where);
   if (!attributes.ok()) return attributes.status();
+  if (keep == Keep::kAppearance) OpenAppearance(model, gltf, &*attributes);
   const uint64_t count = TriangleCount(gltf.mode, attributes->ListedVertices());
   if (count > static_cast<uint64_t>(budget->triangles)) {
     return MakeError(absl::StatusCode::kInvalidArgument,
@@ -248,6 +267,7 @@ absl::StatusOr<Primitive> ReadPrimitive(const tinygltf::Model& model,
   absl::Status status = ReadTriangles(*attributes, *positions, VertexNormals(model, gltf),
                                       gltf.mode, where, &primitive);
   if (!status.ok()) return status;
+  DropBadShading(&primitive);
   return primitive;
 }
 
@@ -259,7 +279,7 @@ bool IsTriangleMode(int mode) {
 }
 
 absl::StatusOr<Mesh> ReadMesh(const tinygltf::Model& model, const std::vector<Material>& materials,
-                              int index, const Pose& pose, MeshBudget* budget,
+                              int index, const Pose& pose, Keep keep, MeshBudget* budget,
                               UnreadFeatures* unread) {
   const tinygltf::Mesh& gltf = model.meshes[index];
   Mesh mesh;
@@ -267,7 +287,7 @@ absl::StatusOr<Mesh> ReadMesh(const tinygltf::Model& model, const std::vector<Ma
   for (size_t p = 0; p < gltf.primitives.size(); ++p) {
     absl::StatusOr<Primitive> primitive =
         ReadPrimitive(model, materials, gltf.primitives[p],
-                      absl::StrCat("mesh ", index, ", primitive ", p), pose, budget, unread);
+                      absl::StrCat("mesh ", index, ", primitive ", p), pose, keep, budget, unread);
     if (!primitive.ok()) return primitive.status();
     mesh.primitives.push_back(*std::move(primitive));
   }

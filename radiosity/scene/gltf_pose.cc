@@ -155,6 +155,15 @@ absl::StatusOr<Vec3> PosedPositions::Skinned(uint32_t i, Vec3 position,
   return FollowJoint(0, position, where);
 }
 
+absl::StatusOr<Vec3> PosedPositions::Turn(uint32_t i, Vec3 direction,
+                                          const std::string& where) const {
+  if (pose_->skin == nullptr) return direction;
+  const absl::StatusOr<Vec3> to = Skinned(i, direction, where);
+  if (!to.ok()) return to.status();
+  const absl::StatusOr<Vec3> from = Skinned(i, {}, where);
+  return from.ok() ? *to - *from : from;
+}
+
 absl::StatusOr<std::array<float, 3>> PosedPositions::At(uint32_t i,
                                                         const std::string& where) const {
   std::array<float, 3> read;

@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "radiosity/core/error.h"
 #include "radiosity/scene/gltf_amend.h"
+#include "radiosity/scene/gltf_appearance.h"
 #include "radiosity/scene/gltf_check.h"
 #include "radiosity/scene/gltf_container.h"
 #include "radiosity/scene/gltf_draco.h"
@@ -61,9 +62,10 @@ constexpr int64_t kPrimitiveMoves = 100;
 // another; more triangles than the limit, counted with instances, are refused.
 class MeshReader {
  public:
-  MeshReader(const tinygltf::Model& model, const SceneLimits& limits, const NodeWorlds& worlds,
-             Scene* scene, UnreadFeatures* unread)
+  MeshReader(const tinygltf::Model& model, const SceneLimits& limits, Keep keep,
+             const NodeWorlds& worlds, Scene* scene, UnreadFeatures* unread)
       : model_(model),
+        keep_(keep),
         worlds_(worlds),
         scene_(scene),
         unread_(unread),
@@ -108,7 +110,7 @@ class MeshReader {
       }
     }
     absl::StatusOr<Mesh> mesh =
-        ReadMesh(model_, scene_->materials, index, *pose, &budget_, unread_);
+        ReadMesh(model_, scene_->materials, index, *pose, keep_, &budget_, unread_);
     if (!mesh.ok()) return mesh.status();
     if (pose->skin != nullptr) {
       instance->world = Transform{};
@@ -126,6 +128,7 @@ class MeshReader {
   }
 
   const tinygltf::Model& model_;
+  const Keep keep_;
   const NodeWorlds& worlds_;
   Scene* scene_;
   UnreadFeatures* unread_;
@@ -178,7 +181,7 @@ void AppendVertexWarnings(Scene* scene) {
   }
 }
 
-absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& limits) {
+absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& limits, Keep keep) {
   absl::Status status = CheckBytes(bundle, limits);
   if (!status.ok()) return status;
   absl::StatusOr<absl::string_view> text = FindJsonText(bundle.main_bytes);
@@ -206,8 +209,11 @@ absl::StatusOr<Scene> ReadScene(const SceneBundle& bundle, const SceneLimits& li
       ReadMaterials(*model, FindUsedMaterials(*model, shown), &textures, &unread);
   if (!materials.ok()) return materials.status();
   scene.materials = *std::move(materials);
-  status = MeshReader(*model, limits, worlds, &scene, &unread).Read();
+  status = MeshReader(*model, limits, keep, worlds, &scene, &unread).Read();
   if (!status.ok()) return status;
+  if (keep == Keep::kAppearance) {
+    scene.appearance = std::make_shared<const Appearance>(ReadAppearance(*text, *model));
+  }
   if (!model->animations.empty()) unread.Add("animations", "file", "shown at rest");
   scene.warnings = *std::move(warnings);
   for (Warning& warning : unread.Warnings()) scene.warnings.push_back(std::move(warning));
@@ -256,10 +262,10 @@ absl::StatusOr<std::vector<std::string>> ReadExternalUris(const std::string& mai
 
 }  // namespace
 
-absl::StatusOr<Scene> LoadGltf(const SceneBundle& bundle, const SceneLimits& limits) {
+absl::StatusOr<Scene> LoadGltf(const SceneBundle& bundle, const SceneLimits& limits, Keep keep) {
   // Memory can run out anywhere below; nothing else is expected to throw.
   try {
-    absl::StatusOr<Scene> scene = ReadScene(bundle, limits);
+    absl::StatusOr<Scene> scene = ReadScene(bundle, limits, keep);
     if (scene.ok()) return scene;
     return InFile(bundle.main_name, scene.status());
   } catch (const std::exception& exception) {

@@ -27,11 +27,18 @@ struct SceneLimits {
   int64_t total_pixels = 512'000'000;  // of all images that are decoded
 };
 
+// What of a file a scene has.
+enum class Keep {
+  kLight,       // what light needs
+  kAppearance,  // and Scene::appearance, normals and tangents, and all texture coordinates
+};
+
 // Reads the default scene (or the first; or all root nodes where the file has no scene). Points and
 // lines and every feature that is not read are named in Scene::warnings. Fails with SceneError
 // (reason SCENE_INVALID, or EXTENSION_UNSUPPORTED for an unknown entry of extensionsRequired, or
 // SCENE_TOO_LARGE) and never throws. A scene without triangles is valid here.
-absl::StatusOr<Scene> LoadGltf(const SceneBundle& bundle, const SceneLimits& limits = {});
+absl::StatusOr<Scene> LoadGltf(const SceneBundle& bundle, const SceneLimits& limits = {},
+                               Keep keep = Keep::kLight);
 
 // Relative URIs (decoded) of buffers and images that `main_bytes` names: the files that a client
 // has to add to the bundle. data: URIs and GLB chunks need none.

@@ -54,9 +54,12 @@ struct Primitive {
   // By n, one of each vertex: TEXCOORD_0 and _1 where they are there, and those of its textures.
   std::map<int, std::vector<std::array<float, 2>>> uv;
   std::vector<std::array<float, 4>> colors;  // COLOR_0: linear RGBA, 0..1; empty: white, opaque
-  int material = -1;                         // -1: the glTF default material
-  int64_t bad_normals = 0;                   // triangles (VertexNormals); a warning's
-  int64_t clamped_colors = 0;                // vertices with a colour over 1; a warning's
+  // Of each vertex, where the appearance is kept; empty where the file has none that can be used.
+  std::vector<std::array<float, 3>> normals;
+  std::vector<std::array<float, 4>> tangents;  // w: 1 or -1, the side of the bitangent
+  int material = -1;                           // -1: the glTF default material
+  int64_t bad_normals = 0;                     // triangles (VertexNormals); a warning's
+  int64_t clamped_colors = 0;                  // vertices with a colour over 1; a warning's
 };
 
 struct Mesh {
@@ -109,6 +112,14 @@ inline bool HasTable(const Light& light) {
   return light.kind == Light::Kind::kLamp || light.kind == Light::Kind::kSky;
 }
 
+// How the surfaces of a file look beside what they reflect diffusely and emit: to be passed on.
+struct Appearance {
+  // Lists `materials`, `textures`, `samplers` and `images` as the file has them, in a JSON object;
+  // but images are {name, mimeType}.
+  std::string json;
+  std::vector<std::string> images;  // encoded, by image; empty where there is none to be had
+};
+
 struct Scene {
   std::vector<Texture> textures;
   std::vector<Material> materials;
@@ -122,6 +133,7 @@ struct Scene {
   // Of the files beside the scene, by name: lamps (.ies) and sky maps.
   std::map<std::string, LampProfile> lamps;
   std::map<std::string, std::shared_ptr<const SphereTable>> skies;
+  std::shared_ptr<const Appearance> appearance;  // null where it is not kept
   std::vector<Warning> warnings;
 };
 

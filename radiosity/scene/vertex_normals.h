@@ -1,4 +1,4 @@
-// Vertex normals are for shading and are not kept; what is wrong with them tells of a bad export.
+// Vertex normals are for shading: light needs none. What is wrong with them tells of a bad export.
 #pragma once
 
 #include <tiny_gltf.h>

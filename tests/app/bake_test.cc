@@ -76,7 +76,7 @@ TEST_F(BakeTest, ALightmapIsWrittenWhereItIsAskedFor) {
   const Ran ran = Run({"bake", "room.glb", "-o", "out", "--max-rays", "20000", "--lightmap",
                        "--texels-per-meter", "9", "--lightmap-page", "256"});
   EXPECT_EQ(ran.exit_code, 0) << ran.error;
-  for (const char* file : {"lightmapped.glb", "irradiance.exr", "lightmap.json"}) {
+  for (const char* file : {"lightmapped.glb", "lit.glb", "irradiance.exr", "lightmap.json"}) {
     EXPECT_NE(ran.output.find(std::string("out/room.") + file), std::string::npos) << ran.output;
   }
   EXPECT_EQ(Json::parse(Read("out/room.lightmap.json"))["texels_per_meter"], 9);

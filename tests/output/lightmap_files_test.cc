@@ -37,6 +37,12 @@ Scene TexturedScene() {
     texture.rgba.insert(texture.rgba.end(), {code, code, code, 255});
   }
   scene.textures = {texture};
+  scene.appearance =
+      std::make_shared<const Appearance>(Appearance{R"({"materials": [
+          {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorTexture": {"index": 0}}},
+          {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0.5, 0.3, 0.5, 1]}}],
+        "textures": [{"source": 0}], "samplers": [], "images": [{"mimeType": "image/jpeg"}]})",
+                                                    {EncodeTexture(texture, 1).bytes}});
   scene.materials[0].reflectance_texture.texture = 0;
   Primitive& floor = scene.meshes[0].primitives[0];
   for (const auto& p : floor.positions) floor.uv[0].push_back({p[0], p[2]});
@@ -45,7 +51,11 @@ Scene TexturedScene() {
 
 RunRecord LightmapRecord(const Scene& scene, const LightmapOptions& options) {
   RunRecord record = RecordOf(PatchesOf(scene), [](Vec3 p) { return Rgb{2 + p.x, 2, 2}; });
-  record.scene = std::make_shared<const Scene>(scene);
+  const auto kept = std::make_shared<Scene>(scene);
+  if (kept->appearance == nullptr) {
+    kept->appearance = std::make_shared<const Appearance>(Appearance{"{}", {}});
+  }
+  record.scene = kept;
   record.atlas = std::make_shared<const Atlas>(*BuildAtlas(scene, *record.patches, options));
   return record;
 }
@@ -125,6 +135,12 @@ TEST(WriteLightmap, ItsFilesShowTheLight) {
   EXPECT_EQ(manifest["unit"], "lx");
   EXPECT_EQ(manifest["primitives"].size(), 3u);  // the floor, the wall, and its back
   EXPECT_EQ(manifest["pages"][0]["file"], "room.irradiance.exr");
+  EXPECT_EQ(manifest["lit"], "room.lit.glb");
+  EXPECT_NEAR(manifest["pages"][0]["intensity"], 3, 0.1) << "the brightest irradiance";
+  const Scene lit = Reloaded(folder + "/room.lit.glb");
+  EXPECT_EQ(lit.textures.size(), 1u) << "the floor's own";
+  EXPECT_EQ(lit.materials.at(1).reflectance, (Rgb{0.5, 0.3, 0.5}));
+  EXPECT_EQ(PatchesOf(lit).size(), record.patches->size());
   EXPECT_GT(ReadFile(folder + "/room.irradiance.exr").size(), 1000u);
 }
 
@@ -200,7 +216,7 @@ TEST(WriteLightmap, TheKhronosValidatorFindsNoError) {
   ASSERT_TRUE(WriteOutputs(folder + "/b", LightmapRecord(MakeCornell(), {16, 64})).ok());
   std::string command = "node " LAMBERT_TEST_TOOLS "/validate_glb.cjs";
   for (const char* part : {"a", "b"}) {
-    for (const char* name : {"room.glb", "room.lightmapped.glb"}) {
+    for (const char* name : {"room.glb", "room.lightmapped.glb", "room.lit.glb"}) {
       command += " '" + folder + "/" + part + "/" + name + "'";
     }
   }

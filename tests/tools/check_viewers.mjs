@@ -1,5 +1,5 @@
 // node check_viewers.mjs OUT NAME...: OUT/NAME.glb and OUT/NAME.lightmapped.glb, from the camera that they bring, in
-// three.js, Babylon.js and model-viewer, in headless Chromium. Each picture is held against OUT/NAME.png, and written
+// three.js, Babylon.js and model-viewer, and OUT/NAME.lit.glb in three.js with plugins, in headless Chromium. Each picture is held against OUT/NAME.png, and written
 // beside it as NAME.KIND.VIEWER.png. Prints the mean difference over the pixels that show a surface; ends with 1
 // where one is over the bound: a picture in a wrong colour space, or without its light, differs by far more.
 import {spawn} from 'node:child_process';
@@ -71,7 +71,11 @@ async function show(viewer, file, width, height) {
     clearTimeout(timer);
     browser.kill('SIGKILL');
     await ended;
-    rmSync(profile, {recursive: true, force: true, maxRetries: 20, retryDelay: 200});
+    try {
+      rmSync(profile, {recursive: true, force: true, maxRetries: 20, retryDelay: 200});
+    } catch (error) {
+      console.log(`${profile} stays: ${error.message}`);  // the browser's helpers write a little longer than it lives
+    }
   }
 }
 
@@ -93,9 +97,9 @@ function difference(ours, theirs) {
 let bad = names.length === 0;
 for (const name of names) {
   const ours = PNG.sync.read(readFileSync(join(out, `${name}.png`)));
-  for (const kind of ['glb', 'lightmapped.glb']) {
+  for (const kind of ['glb', 'lightmapped.glb', 'lit.glb']) {
     const file = `${name}.${kind}`;
-    for (const viewer of ['three', 'babylon', 'model-viewer']) {
+    for (const viewer of kind === 'lit.glb' ? ['three'] : ['three', 'babylon', 'model-viewer']) {
       if (viewer === 'model-viewer' && cameraOf(join(out, file)).yfov === undefined) {
         console.log(`${file} in ${viewer}: left out, it has no orthographic camera`);
         continue;

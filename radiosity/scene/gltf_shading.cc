@@ -1,0 +1,63 @@
+#include "radiosity/scene/gltf_shading.h"
+
+#include <cmath>
+
+namespace lambert {
+namespace {
+
+std::optional<AccessorReader> OpenFor(const tinygltf::Model& model, const tinygltf::Primitive& gltf,
+                                      const char* name, int type, uint64_t vertices) {
+  const auto found = gltf.attributes.find(name);
+  if (found == gltf.attributes.end()) return std::nullopt;
+  absl::StatusOr<AccessorReader> made = AccessorReader::Make(model, found->second, type);
+  if (!made.ok() || made->count() < vertices) return std::nullopt;
+  return *std::move(made);
+}
+
+// Gives the first three numbers of each element the length 1; false where one cannot have it.
+template <size_t N>
+bool Normalise(std::vector<std::array<float, N>>& elements) {
+  constexpr double kShortest = 1e-6;
+  for (std::array<float, N>& element : elements) {
+    const Vec3 v{element[0], element[1], element[2]};
+    const double length = Length(v);
+    if (!std::isfinite(length) || length < kShortest) return false;
+    const std::array<float, 3> unit = ToFloats(v / length);
+    for (int axis = 0; axis < 3; ++axis) element[axis] = unit[axis];
+    if (N == 4 && std::fabs(element[N - 1]) != 1) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+ShadingReader::ShadingReader(const tinygltf::Model& model, const tinygltf::Primitive& gltf,
+                             uint64_t vertices)
+    : normals_(OpenFor(model, gltf, "NORMAL", TINYGLTF_TYPE_VEC3, vertices)) {
+  if (normals_) tangents_ = OpenFor(model, gltf, "TANGENT", TINYGLTF_TYPE_VEC4, vertices);
+}
+
+absl::Status ShadingReader::Copy(uint32_t i, const PosedPositions& positions,
+                                 const std::string& where, Primitive* primitive) const {
+  if (!normals_) return absl::OkStatus();
+  std::array<float, 3> read;
+  normals_->Floats(i, read.data());
+  const absl::StatusOr<Vec3> normal = positions.Turn(i, FromFloats(read), where);
+  if (!normal.ok()) return normal.status();
+  primitive->normals.push_back(ToFloats(*normal));
+  if (!tangents_) return absl::OkStatus();
+  std::array<float, 4> tangent;
+  tangents_->Floats(i, tangent.data());
+  const absl::StatusOr<Vec3> along = positions.Turn(i, {tangent[0], tangent[1], tangent[2]}, where);
+  if (!along.ok()) return along.status();
+  const std::array<float, 3> turned = ToFloats(*along);
+  primitive->tangents.push_back({turned[0], turned[1], turned[2], tangent[3]});
+  return absl::OkStatus();
+}
+
+void DropBadShading(Primitive* primitive) {
+  if (!Normalise(primitive->normals)) primitive->normals.clear();
+  if (primitive->normals.empty() || !Normalise(primitive->tangents)) primitive->tangents.clear();
+}
+
+}  // namespace lambert
