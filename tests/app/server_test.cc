@@ -1,4 +1,5 @@
 // The command as a client of servers and workers that are processes of their own.
+#include <cmath>
 #include <csignal>
 
 #include "gtest/gtest.h"
@@ -47,6 +48,78 @@ TEST_F(ServerTest, AFarmGivesTheBytesThatOneProcessGives) {
   EXPECT_EQ(Read("here/patches.csv"), Read("there/patches.csv"));
   EXPECT_EQ(Json::parse(Run({"plan", "room.glb", "--json"}).output),
             Json::parse(Run(There({"plan", "room.glb", "--json"})).output));
+}
+
+// A spot and a directional light of the file, a lamp, a sky and the sun, shot and gathered by two.
+TEST_F(ServerTest, EveryKindOfLightIsTheSameBytesFromAFarm) {
+  Scene scene = MakeCornell(2);
+  const double half = std::sqrt(0.5);
+  Light spot{"spot", {1, 1.5, 1}, {40, 40, 30}};
+  spot.y = {0, 0, 1}, spot.z = {0, -1, 0};
+  spot.cos_inner = 0.9, spot.cos_outer = 0.5;
+  Light distant{"noon", {}, {90, 100, 100}, Light::Kind::kDistant};
+  distant.y = {0, half, half}, distant.z = {0, -half, half};
+  scene.lights = {spot, distant, {"lamp", {1.5, 1.8, 1}, {1, 1, 1}}};
+  Write("lights.glb", ToGlb(scene));
+  Write("lamp.ies",
+        "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 10\n"
+        "0 60 180\n0\n90 40 0\n");
+  const std::vector<std::string> bake = {"bake",
+                                         "lights.glb",
+                                         "--max-rays",
+                                         "20000",
+                                         "--sky",
+                                         "overcast",
+                                         "--sun",
+                                         "150,40,9000",
+                                         "--ies",
+                                         "lamp.ies=lamp",
+                                         "--final-gather",
+                                         "4",
+                                         "--work-plane",
+                                         "0.7",
+                                         "--lightmap",
+                                         "--texels-per-meter",
+                                         "4"};
+  const auto into = [&](const std::string& folder) {
+    std::vector<std::string> arguments = bake;
+    arguments.insert(arguments.end(), {"-o", folder});
+    return arguments;
+  };
+  StartServer();
+  StartWorker();
+  const Process second({LAMBERT_WORKER, "--server", address_}, Here());
+  const Ran there = Run(There(into("there")));
+  ASSERT_EQ(there.exit_code, 0) << there.error;
+  const Ran here = Run(into("here"));
+  ASSERT_EQ(here.exit_code, 0) << here.error;
+  for (const char* file : {"patches.csv", "sensors.csv", "lights.glb", "lights.png",
+                           "lights.lit.glb", "lights.lightmapped.glb", "lights.irradiance.exr"}) {
+    EXPECT_GT(Read(std::string("here/") + file).size(), 100u) << file;
+    EXPECT_EQ(Read(std::string("here/") + file), Read(std::string("there/") + file)) << file;
+  }
+}
+
+// A file in centimetres with glass in it.
+TEST_F(ServerTest, UnitsOfLengthAndBlendReachTheServer) {
+  Scene scene = MakeCornell(2);
+  scene.materials.back().blend = true;
+  Write("room.glb", ToGlb(scene));
+  StartServer();
+  StartWorker();
+  const auto bake = [&](const std::string& folder, std::vector<std::string> more) {
+    more.insert(more.begin(), {"bake", "room.glb", "-o", folder, "--max-rays", "20000"});
+    const Ran ran = Run(more);
+    EXPECT_EQ(ran.exit_code, 0) << ran.error;
+    return Json::parse(Read(folder + "/run.json"))["totals"];
+  };
+  const Json plain = bake("plain", {});
+  const std::vector<std::string> options = {"--scene-unit", "cm", "--blend", "omit"};
+  const Json here = bake("here", options), there = bake("there", There(options));
+  EXPECT_EQ(Read("here/patches.csv"), Read("there/patches.csv"));
+  EXPECT_LT(there["patches"], plain["patches"]) << "what is BLEND is left out";
+  const double area = bake("cm", There({"--scene-unit", "cm"}))["area_m2"];
+  EXPECT_NEAR(area, plain["area_m2"].get<double>() * 1e-4, 1e-12);
 }
 
 TEST_F(ServerTest, AJobIsSubmittedWatchedFetchedListedAndDeleted) {

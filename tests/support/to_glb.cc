@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -60,12 +61,28 @@ Json ToJson(const Material& material) {
   rho.push_back(1);
   Json json = {{"name", material.name},
                {"doubleSided", material.two_sided},
+               {"alphaMode", material.blend ? "BLEND" : "OPAQUE"},
                {"pbrMetallicRoughness", {{"baseColorFactor", rho}, {"metallicFactor", 0}}}};
   const Rgb l = material.luminance;
   const double strength = std::max({l.r, l.g, l.b});
   if (strength > 0) {
     json["emissiveFactor"] = ToJson(l / strength);
     json["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
+  }
+  return json;
+}
+
+// Point, spot and directional lights shine along -z of their node.
+Json ToJson(const Light& light) {
+  const Rgb i = light.strength;
+  const double brightest = std::max({i.r, i.g, i.b});
+  Json json = {{"type", "point"}, {"color", ToJson(i / brightest)}, {"intensity", brightest}};
+  if (light.kind == Light::Kind::kDistant) {
+    json["type"] = "directional";
+  } else if (light.cos_outer > -1) {
+    json["type"] = "spot";
+    json["spot"] = {{"innerConeAngle", std::acos(light.cos_inner)},
+                    {"outerConeAngle", std::acos(light.cos_outer)}};
   }
   return json;
 }
@@ -80,13 +97,10 @@ void AddCamerasAndLights(const Scene& scene, Json* gltf) {
                                 {"camera", (*gltf)["cameras"].size() - 1}});
   }
   for (const Light& light : scene.lights) {
-    const Rgb i = light.strength;
-    const double brightest = std::max({i.r, i.g, i.b});
     Json& lights = (*gltf)["extensions"]["KHR_lights_punctual"]["lights"];
-    lights.push_back(
-        {{"type", "point"}, {"color", ToJson(i / brightest)}, {"intensity", brightest}});
+    lights.push_back(ToJson(light));
     Json node = {{"name", light.name},
-                 {"translation", {light.position.x, light.position.y, light.position.z}}};
+                 {"matrix", ToMatrix({light.x, -light.y, -light.z, light.position})}};
     node["extensions"]["KHR_lights_punctual"]["light"] = lights.size() - 1;
     (*gltf)["nodes"].push_back(node);
     (*gltf)["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_emissive_strength"};
