@@ -5,9 +5,11 @@
 #include <cmath>
 #include <functional>
 
+#include "radiosity/core/error.h"
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/patch/light.h"
 #include "radiosity/scene/sky_map.h"
+#include "radiosity/shoot/importance.h"
 #include "tests/analytic/seeds.h"
 #include "tests/support/scenes.h"
 
@@ -160,6 +162,37 @@ TEST(OpenFloor, HasTheIlluminanceOfItsSky) {
                    {{sky, 300, [&](const Solution& s) { return FloorMean(patches, s); }}});
     }
   }
+}
+
+// A box without a lid under a uniform sky of luminance L, whose walls emit (1 - rho) pi L: wherever
+// a patch looks it sees L, so pi L arrives at each and leaves each.
+TEST(FurnaceUnderASky, EveryPatchSeesTheSameAllAround) {
+  constexpr double kRho = 0.6, kSky_lx = 300, kOwn = (1 - kRho) * kSky_lx;
+  const Paint paint{{kRho, kRho, kRho}, {kOwn, kOwn, kOwn}};
+  const Scene scene = SceneMaker()
+                          .Quad({}, {0, 0, 1}, {1, 0, 0}, paint)
+                          .Quad({}, {0, 1, 0}, {0, 0, 1}, paint)
+                          .Quad({1, 0, 0}, {0, 0, 1}, {0, 1, 0}, paint)
+                          .Quad({}, {1, 0, 0}, {0, 1, 0}, paint)
+                          .Quad({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, paint)
+                          .Make();
+  PatchOptions options;
+  options.lights = {.sky = "uniform", .sky_illuminance_lx = kSky_lx};
+  const absl::StatusOr<PatchSet> patches = BuildPatches(scene, options);
+  ASSERT_TRUE(patches.ok()) << patches.status();
+  std::vector<Truth> truths;
+  for (PatchIndex i = 0; i < patches->size(); ++i) {
+    truths.push_back({"irradiance of a patch", kSky_lx,
+                      [i](const Solution& s) { return s.irradiance_lx[i].r; }});
+  }
+  truths.push_back({"mean radiosity", kSky_lx,
+                    [&](const Solution& s) { return AreaMean(*patches, s.radiosity_lm_per_m2); }});
+  for (Method method : {Method::kPmcr, Method::kPhs}) {
+    ExpectTruths(*patches, WithRays(method, 400000), truths);
+  }
+  const absl::Status refused = ValidateFor(*patches, WithRays(Method::kExact, 1).shoot);
+  EXPECT_EQ(ReasonOf(refused), "FIELD_INVALID");
+  EXPECT_NE(refused.message().find("exact does not take a sky"), std::string::npos) << refused;
 }
 
 TEST(OpenFloor, OfASunHasTheSineOfItsElevation) {
