@@ -15,57 +15,12 @@
 #include <string>
 #include <vector>
 
+#include "bench/farm_constants.h"
 #include "radiosity/solve/allocate.h"
 #include "server/work/next_leases.h"
 
 namespace lambert::server {
 namespace {
-
-// What the model takes; times in seconds. Measured as docs/scaling.md says.
-struct Constants {
-  double slots = 16;               // of a node
-  double rays_per_patch = 1000;    // of the pass
-  double reflected = 0.5;          // rays of a step, of those of the step before
-  double ray = 0.17e-6;            // tracing, one core
-  double unit = 300e-6;            // coordinator's processor: a grant, a sync, a result's calls
-  double byte = 3e-9;              // ... and a byte of a result: hash, decode, check, merge
-  double merge_byte = 0.5e-9;      // of that: merging, one result at a time
-  double step = 0.5e-3;            // latency of publishing a step and of its first grants
-  double patch = 10e-9;            // allocating and booking, a patch and step
-  double cores = 16;               // of the coordinator
-  double bandwidth = 1.25e9;       // bytes a second into the coordinator
-  double session = 0.3e-6;         // the table's lock at each call, a session
-  double latency = 0.1e-3;         // of a message
-  double shards = 0;               // merge shards, each like the coordinator; 0: it merges itself
-  double units_per_slot = 2;       // WorkOptions
-  double max_unit_rays = 1 << 21;  // WorkOptions
-  double combine = 1;              // 1: units that ended travel as one result; 0: one by one
-  double deposit_bytes = 32;       // of a patch that was hit, in a result
-};
-
-const std::map<std::string, double Constants::*>& Keys() {
-  static const std::map<std::string, double Constants::*> keys = {
-      {"slots", &Constants::slots},
-      {"rays_per_patch", &Constants::rays_per_patch},
-      {"reflected", &Constants::reflected},
-      {"ray", &Constants::ray},
-      {"unit", &Constants::unit},
-      {"byte", &Constants::byte},
-      {"merge_byte", &Constants::merge_byte},
-      {"step", &Constants::step},
-      {"patch", &Constants::patch},
-      {"cores", &Constants::cores},
-      {"bandwidth", &Constants::bandwidth},
-      {"session", &Constants::session},
-      {"latency", &Constants::latency},
-      {"shards", &Constants::shards},
-      {"units_per_slot", &Constants::units_per_slot},
-      {"max_unit_rays", &Constants::max_unit_rays},
-      {"combine", &Constants::combine},
-      {"deposit_bytes", &Constants::deposit_bytes},
-  };
-  return keys;
-}
 
 TimePoint At(double seconds) {
   return TimePoint() + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
@@ -76,6 +31,8 @@ double ProcessorSeconds() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
+
+constexpr double kTick = 0.05;  // seconds: WorkTable::Tick
 
 // Something that serves one after the other: a link, a processor, a lock.
 struct Server {
@@ -96,17 +53,18 @@ class Simulation {
         ledger_processors_(static_cast<size_t>(c_.cores)) {
     options_.units_per_slot = static_cast<int>(c_.units_per_slot);
     options_.max_unit_rays = static_cast<int64_t>(c_.max_unit_rays);
+    options_.rays_per_sum = c_.rays_per_sum;
     for (int i = 0; i < nodes; ++i) {
       Node& node = nodes_.emplace_back();
       node.name = "n" + std::to_string(i);
       by_name_[node.name] = i;
-      SessionState& session = state_.sessions[node.name];
-      session.slots = static_cast<int>(c_.slots);
-      session.waiting = true;
+      AddSession(state_, node.name, node.name, static_cast<int>(c_.slots), options_);
+      SetWaiting(state_, node.name, true);
     }
   }
 
   void RunPass() {
+    events_.push({kTick, Kind::kTick, 0, ""});
     for (double rays = c_.rays_per_patch * patches_ * (1 - c_.reflected); rays >= 1;
          rays *= c_.reflected) {
       RunStep(rays);
@@ -138,8 +96,9 @@ class Simulation {
     std::deque<std::string> leases;  // that wait for a slot
     std::vector<std::string> ended;  // whose results wait to be sent
     std::vector<std::string> sent;   // on their way, as one result
+    Server link;
   };
-  enum class Kind { kGranted, kEnded, kArrived, kAsks };
+  enum class Kind { kGranted, kEnded, kArrived, kAsks, kTick };
   struct Event {
     double time;
     Kind kind;
@@ -165,7 +124,10 @@ class Simulation {
     std::vector<int64_t> grains(static_cast<size_t>(whole / grain), grain);
     if (whole % grain > 0) grains.push_back(whole % grain);
     now_ += c_.step + c_.patch * patches_;
-    AddStep(state_, "job", ++number_, grains);
+    // As WorkTable::Publish: shards take the steps that have as many rays as patches.
+    shards_ = rays >= patches_ ? static_cast<int>(c_.shards) : 0;
+    AddStep(state_, "job", ++number_, grains,
+            {static_cast<int64_t>(patches_), std::max(shards_, 1)});
     left_ = grains.size();
     Dispatch();
     while (left_ > 0) {
@@ -175,13 +137,13 @@ class Simulation {
       Handle(event);
     }
     RemoveStep(state_, "job");
-    if (c_.shards > 0) CollectSums(rays);
+    if (shards_ > 0) CollectSums(rays);
   }
 
   // The shards' sums come over the link of the coordinator, which decodes them beside each other.
   void CollectSums(double rays) {
     const double bytes = ResultBytes(rays);
-    now_ += bytes / c_.bandwidth + c_.byte * bytes / std::min(c_.shards, c_.cores);
+    now_ += bytes / c_.bandwidth + c_.byte * bytes / std::min<double>(shards_, c_.cores);
   }
 
   void Handle(const Event& event) {
@@ -201,8 +163,12 @@ class Simulation {
         Arrive(event.node);
         return;
       case Kind::kAsks:
-        state_.sessions.at(node.name).waiting = true;
+        SetWaiting(state_, node.name, true);
         Dispatch();
+        return;
+      case Kind::kTick:
+        Lend(RepeatLate(state_, At(now_), options_));
+        events_.push({now_ + kTick, Kind::kTick, 0, ""});
         return;
     }
   }
@@ -235,6 +201,8 @@ class Simulation {
   void Send(int index) {
     Node& node = nodes_[static_cast<size_t>(index)];
     if (!node.sent.empty() || node.ended.empty()) return;
+    const bool is_dry = node.running == 0 && node.leases.empty();
+    if (c_.combine > 0 && !is_dry && node.ended.size() < static_cast<size_t>(c_.slots)) return;
     const size_t count = c_.combine > 0 ? node.ended.size() : 1;
     const auto end = node.ended.begin() + static_cast<ptrdiff_t>(count);
     node.sent.assign(node.ended.begin(), end);
@@ -243,21 +211,20 @@ class Simulation {
     for (const std::string& lease : node.sent) rays += UnitRays(lease);
     const double bytes = ResultBytes(rays);
     bytes_ += bytes;
-    const double part = bytes / std::max(c_.shards, 1.0);
-    const double received = link_.Serve(now_, part / c_.bandwidth) + c_.latency;
+    const double part = bytes / std::max(shards_, 1);
+    const double sent = node.link.Serve(now_, bytes / c_.bandwidth);
+    const double received = std::max(link_.Serve(now_, part / c_.bandwidth), sent) + c_.latency;
     const double decoded =
         FirstFree(processors_).Serve(received, c_.unit + (c_.byte - c_.merge_byte) * part);
     double merged = merging_.Serve(decoded, c_.merge_byte * part);
-    if (c_.shards > 0) {
+    if (shards_ > 0) {
       merged = FirstFree(ledger_processors_).Serve(merged + 2 * c_.latency, c_.unit);
     }
     events_.push({Locked(merged), Kind::kArrived, index, ""});
   }
 
   // When a call that comes at `time` has had the table to itself.
-  double Locked(double time) {
-    return table_.Serve(time, c_.session * static_cast<double>(nodes_.size()));
-  }
+  double Locked(double time) { return table_.Serve(time, c_.call); }
 
   void Arrive(int index) {
     Node& node = nodes_[static_cast<size_t>(index)];
@@ -268,7 +235,8 @@ class Simulation {
         const UnitState& done = state_.steps.at("job").units[static_cast<size_t>(unit.unit)];
         left_ -= static_cast<size_t>(done.grain_count);
         ++units_;
-        FinishUnit(state_, unit, "", "", c_.ray * static_cast<double>(done.rays));
+        FinishUnit(state_, unit, "", "", c_.ray * static_cast<double>(done.rays),
+                   ToSeconds(At(now_) - held.granted));
       }
       RemoveLease(state_, lease, false);
     }
@@ -277,11 +245,21 @@ class Simulation {
     Dispatch();
   }
 
-  void Dispatch() {
+  template <typename Policy>
+  std::vector<Grant> Timed(const Policy& policy) {
     const double start = ProcessorSeconds();
-    const std::vector<Grant> grants = NextLeases(state_, At(now_), options_);
+    std::vector<Grant> grants = policy();
     policy_seconds_ += ProcessorSeconds() - start;
     ++policy_calls_;
+    return grants;
+  }
+
+  void Dispatch() {
+    Lend(Timed([this] { return NextLeases(state_, At(now_), options_); }));
+  }
+
+  void Lend(const std::vector<Grant>& grants) {
+    state_.revoked.clear();
     std::map<int, bool> told;
     for (const Grant& grant : grants) {
       const int unit = grant.new_grains > 0 ? CutUnit(state_, "job", grant.new_grains) : grant.unit;
@@ -292,7 +270,7 @@ class Simulation {
       told[node] = true;
     }
     for (const auto& [node, is_told] : told) {
-      state_.sessions.at(nodes_[static_cast<size_t>(node)].name).waiting = false;
+      SetWaiting(state_, nodes_[static_cast<size_t>(node)].name, false);
       events_.push({Locked(now_ + 2 * c_.latency), Kind::kAsks, node, ""});
     }
   }
@@ -310,6 +288,7 @@ class Simulation {
   double now_ = 0, rays_ = 0, bytes_ = 0, policy_seconds_ = 0;
   int64_t number_ = 0, next_lease_ = 0, units_ = 0, policy_calls_ = 0;
   size_t left_ = 0;  // grains of the step that are not merged
+  int shards_ = 0;   // of the step
   int steps_ = 0;
 };
 

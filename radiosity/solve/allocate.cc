@@ -117,9 +117,10 @@ std::vector<WorkUnit> CutIntoUnits(const StepPlan& plan, uint64_t seed, uint32_t
 
 int64_t UnitRays(int64_t step_rays, int64_t patch_count) {
   // A result lists the patches that were hit: a unit should have more rays to trace than to report,
-  // and as many rays as patches unless it would run too long.
+  // and half as many rays as patches, as workers add up what they trace, unless it would run too
+  // long (docs/scaling.md).
   const int64_t least =
-      std::max({kMinUnitRays, std::min(patch_count, kLongUnitRays), patch_count / 4});
+      std::max({kMinUnitRays, std::min(patch_count / 2, kLongUnitRays), patch_count / 4});
   return std::min(std::max(step_rays / kUnitsPerStep, least), std::max(kMaxUnitRays, least));
 }
 

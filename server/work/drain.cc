@@ -8,7 +8,7 @@ namespace lambert::server {
 void WorkTable::StopGranting(Calls& calls) {
   shutting_down_ = true;
   for (auto& [name, exchange] : exchanges_) EndHeld(exchange, ShuttingDown(), calls);
-  for (auto& [name, session] : state_.sessions) session.waiting = false;
+  for (const auto& [name, session] : state_.sessions) SetWaiting(state_, name, false);
 }
 
 void WorkTable::Drain(Duration grace) {

@@ -108,8 +108,11 @@ absl::StatusOr<SubmitOutcome> WorkTable::Book(const Submission& submission, cons
   if (known.done > 0 && submission.units.size() > 1) return SubmitOutcome::kSplit;
   if (known.done > 0) return Repeated(submission, claim.worker, *claim.step);
   for (const SubmittedUnit& submitted : submission.units) {
+    auto lease = state_.leases.find(submitted.lease);
+    const double lease_seconds =
+        lease == state_.leases.end() ? 0 : ToSeconds(clock_() - lease->second.granted);
     FinishUnit(state_, {submission.job, submitted.unit}, submitted.digest, claim.worker,
-               submitted.run_seconds);
+               submitted.run_seconds, lease_seconds);
     counters_.rays += state_.steps.at(submission.job).units[submitted.unit].rays;
     counters_.run_microseconds += Microseconds(submitted.run_seconds);
   }
@@ -155,7 +158,6 @@ absl::StatusOr<SubmitOutcome> WorkTable::Submit(const Submission& submission) {
   {
     absl::MutexLock lock(&mutex_);
     outcome = Settle(submission, *claim, result.status());
-    TellRevoked();
     Dispatch(calls);
   }
   MakeCalls(calls);

@@ -25,7 +25,7 @@ WorkLoad LoadOf(const WorkState& state) {
     load.queued_rays += rays;
     load.queued_seconds +=
         static_cast<double>(rays) *
-        (pace == state.paces.end() ? kUnknownSecondsPerRay : pace->second.median);
+        (pace == state.paces.end() ? kUnknownSecondsPerRay : pace->second.seconds_per_ray.median);
   }
   load.leases = static_cast<int>(state.leases.size());
   load.workers = static_cast<int>(state.sessions.size());

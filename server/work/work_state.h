@@ -32,7 +32,12 @@ struct WorkOptions {
   Log log = [](const LogLine&) {};  // of sessions that end and leases that fail
   // A range of patches that is shorter is not worth a message to a merge shard, > 0: half a MiB.
   PatchIndex least_shard_patches = 1 << 14;
-  int64_t max_unit_rays = 1 << 21;  // about half a second: grains are lent together up to that, > 0
+  // Grains are lent together up to so many rays, about half a second, or one a patch, > 0.
+  int64_t max_unit_rays = 1 << 21;
+  // Rays that a slot traces while a patch of all that a worker sends in a step, about three sums of
+  // 32 bytes, crosses the link of who merges, > 0: .17 us a ray, 10 Gb/s. Says how many workers a
+  // step is worth (MostSessions, next_leases.h).
+  double rays_per_sum = 0.45;
 
   // Sets the expiry, and a sync interval of a fifth of it that is at most 2 s.
   void SetSessionExpiry(std::chrono::duration<double> expiry) {
@@ -58,8 +63,7 @@ struct LeaseState {
   std::string session;
   TimePoint granted;
   bool revoked =
-      false;          // nobody needs its result; it fills a slot until its worker reports or sends
-  bool told = false;  // its worker was told that it is revoked
+      false;  // nobody needs its result; it fills a slot until its worker reports or sends
 };
 
 struct UnitState {
@@ -73,18 +77,28 @@ struct UnitState {
   std::string result_worker;     // once done: who sent it
 };
 
+// What one who merges a step has to take of each worker.
+struct SumSize {
+  int64_t patches = 0;  // that a result adds up; 0: results hold no sums
+  int mergers = 1;      // who share them
+};
+
 struct StepState {
   int64_t number = 0;
   std::vector<int64_t> grain_rays;  // by grain
-  int next_grain = 0;               // grains from here on are in no unit yet
-  std::vector<UnitState> units;     // that were lent so far
-  std::deque<int> open;             // units that are neither done nor leased any more, next first
-  std::set<int> leased;             // units that are leased and not done
+  int64_t rays = 0;                 // of all
+  SumSize sums;
+  int next_grain = 0;            // grains from here on are in no unit yet
+  std::vector<UnitState> units;  // that were lent so far
+  std::deque<int> open;          // units that are neither done nor leased any more, next first
+  std::set<int> leased;          // units that are leased and not done
+  std::map<std::string, int> holders;  // sessions that hold leases of these, and how many
 };
 
 struct SessionState {
   std::string worker_id;
   int slots = 1;
+  int most_leases = 2;  // that it may hold, > 0
   bool draining = false;
   bool waiting = false;          // a sync is held: leases can be granted now
   TimePoint last_seen;           // when its last sync began
@@ -96,10 +110,23 @@ struct SessionState {
   int FreeSlots() const { return slots - static_cast<int>(leases.size()); }
 };
 
-// How fast the units of a job run: the median is deaf to a worker that was frozen for a while.
+// The median of the last few: deaf to a worker that was frozen for a while.
+struct RecentMedian {
+  std::deque<double> recent;
+  double median = 0;  // of them
+};
+
+// How fast the units of a job come back.
 struct Pace {
-  std::deque<double> recent;  // seconds a ray of the last units
-  double median = 0;          // of them
+  RecentMedian seconds_per_ray;  // that units ran
+  RecentMedian wait_s;           // what their leases took beyond that: in queues, and on links
+};
+
+// What the policy asks of all sessions, so that it need not look at each.
+struct Roster {
+  int sessions = 0, slots = 0;   // of those that do not drain
+  int free_elsewhere = 0;        // free slots of those that neither wait nor drain
+  std::set<std::string> takers;  // that wait, do not drain and may hold more leases
 };
 
 struct WorkState {
@@ -107,11 +134,22 @@ struct WorkState {
   std::map<std::string, SessionState> sessions;  // by name
   std::map<std::string, LeaseState> leases;      // by name
   std::map<std::string, Pace> paces;             // by job id, where units have ended
+  Roster roster;                                 // of the sessions
+  std::vector<std::string> revoked;              // leases whose workers were not told of it yet
 };
+
+// A new session. Requires: its name is new.
+void AddSession(WorkState& state, const std::string& name, const std::string& worker_id, int slots,
+                const WorkOptions& options);
+// Requires: the session is there, and holds no leases.
+void RemoveSession(WorkState& state, const std::string& name);
+// Requires: the session is there.
+void SetWaiting(WorkState& state, const std::string& name, bool waiting);
+void SetDraining(WorkState& state, const std::string& name, bool draining);
 
 // Publishes a step whose grains have these rays. Requires: the job has none.
 void AddStep(WorkState& state, const std::string& job, int64_t number,
-             const std::vector<int64_t>& grain_rays);
+             const std::vector<int64_t>& grain_rays, const SumSize& sums = {});
 
 // Makes the next `grain_count` grains of a job's step a unit and returns its number. Requires: so
 // many are left.
@@ -132,8 +170,9 @@ void RemoveLease(WorkState& state, const std::string& lease, bool failed);
 // there is no such lease.
 void LetRest(WorkState& state, const std::string& lease, TimePoint now, const WorkOptions& options);
 
-// Marks a unit done, revokes its leases and learns the job's pace. Requires: the unit is not done.
+// Marks a unit done, revokes its leases and learns the job's pace: `lease_seconds` are those from
+// the grant to the result, of which it ran `run_seconds`. Requires: the unit is not done.
 void FinishUnit(WorkState& state, const UnitRef& unit, const std::string& digest,
-                const std::string& worker, double run_seconds);
+                const std::string& worker, double run_seconds, double lease_seconds);
 
 }  // namespace lambert::server

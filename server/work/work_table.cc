@@ -80,10 +80,8 @@ absl::StatusOr<std::string> WorkTable::OpenSession(const std::string& worker_id,
     }
     if (!old.empty()) EndSession(old, true, "the worker started again", calls);
     name = "workerSessions/" + std::to_string(next_name_++);
-    SessionState& session = state_.sessions[name];
-    session.worker_id = worker_id;
-    session.slots = slots;
-    session.last_seen = clock_();
+    AddSession(state_, name, worker_id, slots, options_);
+    state_.sessions.at(name).last_seen = clock_();
     exchanges_[name];
     Note("session opened, " + std::to_string(slots) + " slots", {.worker = worker_id});
     Dispatch(calls);
@@ -118,9 +116,10 @@ void WorkTable::Sync(const SyncRequest& request, const void* call, SyncDone done
       exchange.held_call = call;
       exchange.answer_by = clock_() + options_.sync_interval;
       session->second.last_seen = clock_();
-      session->second.draining = request.draining;
-      session->second.waiting = true;
+      SetDraining(state_, request.session, request.draining);
+      SetWaiting(state_, request.session, true);
       Dispatch(calls);
+      if (exchange.held != nullptr && !exchange.revoked.empty()) Answer(request.session, {}, calls);
     }
   }
   MakeCalls(calls);
@@ -155,7 +154,7 @@ void WorkTable::CancelSync(const std::string& session, const void* call) {
     if (exchange != exchanges_.end() && exchange->second.held != nullptr &&
         exchange->second.held_call == call) {
       EndHeld(exchange->second, absl::CancelledError("the caller has gone"), calls);
-      state_.sessions.at(session).waiting = false;
+      SetWaiting(state_, session, false);
     }
   }
   MakeCalls(calls);
@@ -186,7 +185,7 @@ void WorkTable::EndSession(const std::string& name, bool failed, const std::stri
   }
   EndHeld(exchanges_[name], SessionNotFound(name), calls);
   exchanges_.erase(name);
-  state_.sessions.erase(name);
+  RemoveSession(state_, name);
 }
 
 void WorkTable::EndHeld(Exchange& exchange, const absl::Status& status, Calls& calls) {
@@ -217,21 +216,19 @@ void WorkTable::FailLease(const std::string& lease, const std::string& why) {
                          "look at the workers' logs"}));
 }
 
-void WorkTable::TellRevoked() {
-  for (auto& [name, session] : state_.sessions) {
-    for (const std::string& name_of_lease : session.leases) {
-      LeaseState& lease = state_.leases.at(name_of_lease);
-      if (!lease.revoked || lease.told) continue;
-      exchanges_[name].revoked.push_back(name_of_lease);
-      lease.told = true;
-    }
-  }
-}
+void WorkTable::Dispatch(Calls& calls) { Lend(NextLeases(state_, clock_(), options_), calls); }
 
-void WorkTable::Dispatch(Calls& calls) {
+void WorkTable::Lend(const std::vector<Grant>& grants, Calls& calls) {
   const TimePoint now = clock_();
-  std::map<std::string, std::vector<GrantedLease>> granted;
-  for (const Grant& grant : NextLeases(state_, now, options_)) {
+  std::map<std::string, std::vector<GrantedLease>> news;
+  for (const std::string& name : state_.revoked) {
+    auto lease = state_.leases.find(name);
+    if (lease == state_.leases.end()) continue;
+    exchanges_[lease->second.session].revoked.push_back(name);
+    news[lease->second.session];
+  }
+  state_.revoked.clear();
+  for (const Grant& grant : grants) {
     const std::string lease = grant.session + "/leases/" + std::to_string(next_name_++);
     const int unit =
         grant.new_grains > 0 ? CutUnit(state_, grant.job, grant.new_grains) : grant.unit;
@@ -239,18 +236,11 @@ void WorkTable::Dispatch(Calls& calls) {
     if (grant.new_grains == 0) ++counters_.leases_repeated;
     AddLease(state_, {grant.job, unit}, grant.session, lease, now);
     const UnitState& lent = state_.steps.at(grant.job).units[unit];
-    granted[grant.session].push_back(
+    news[grant.session].push_back(
         {lease, steps_.at(grant.job), unit, {lent.first_grain, lent.grain_count}});
   }
-  for (auto& [name, session] : state_.sessions) {
-    Exchange& exchange = exchanges_[name];
-    if (exchange.held == nullptr) continue;
-    auto leases = granted.find(name);
-    if (leases != granted.end()) {
-      Answer(name, std::move(leases->second), calls);
-    } else if (!exchange.revoked.empty() || exchange.answer_by <= now) {
-      Answer(name, {}, calls);
-    }
+  for (auto& [session, leases] : news) {
+    if (exchanges_[session].held != nullptr) Answer(session, std::move(leases), calls);
   }
 }
 
@@ -261,58 +251,14 @@ void WorkTable::Answer(const std::string& name, std::vector<GrantedLease> leases
   exchange.answered = true;
   calls.push_back([done = std::move(exchange.held), reply = exchange.reply] { done(reply); });
   exchange.held = nullptr;
-  state_.sessions.at(name).waiting = false;
+  SetWaiting(state_, name, false);
 }
 
-absl::StatusOr<std::shared_ptr<PublishedStep>> WorkTable::Publish(
-    const WorkSetup& setup, const std::vector<WorkUnit>& grains, bool may_shard) {
-  std::vector<int64_t> rays;
-  for (const WorkUnit& grain : grains) rays.push_back(grain.RayCount());
-  const std::vector<ShardRange> shards =
-      may_shard ? shards_.Divide(setup.patch_count) : std::vector<ShardRange>();
-  Calls calls;
-  std::shared_ptr<PublishedStep> step;
-  {
-    absl::MutexLock lock(&mutex_);
-    if (shutting_down_) return ShuttingDown();
-    if (auto aborted = aborted_.find(setup.job); aborted != aborted_.end()) return aborted->second;
-    step = std::make_shared<PublishedStep>(setup, next_step_++, grains, shards);
-    steps_[setup.job] = step;
-    AddStep(state_, setup.job, step->number(), rays);
-    Dispatch(calls);
+void WorkTable::AnswerOverdue(Calls& calls) {
+  const TimePoint now = clock_();
+  for (auto& [name, exchange] : exchanges_) {
+    if (exchange.held != nullptr && exchange.answer_by <= now) Answer(name, {}, calls);
   }
-  shards_.Add(step);  // before any worker has a unit of it
-  MakeCalls(calls);
-  return step;
-}
-
-void WorkTable::Withdraw(const std::string& job) {
-  Calls calls;
-  std::shared_ptr<PublishedStep> step;
-  {
-    absl::MutexLock lock(&mutex_);
-    RemoveStep(state_, job);
-    if (auto found = steps_.find(job); found != steps_.end()) {
-      step = std::move(found->second);
-      steps_.erase(found);
-    }
-    TellRevoked();
-    Dispatch(calls);
-  }
-  if (step != nullptr) shards_.Remove(step);
-  MakeCalls(calls);
-}
-
-void WorkTable::AbortJob(const std::string& job, const absl::Status& status) {
-  absl::MutexLock lock(&mutex_);
-  aborted_[job] = status;
-  if (auto step = steps_.find(job); step != steps_.end()) step->second->Abort(status);
-}
-
-void WorkTable::ForgetJob(const std::string& job) {
-  absl::MutexLock lock(&mutex_);
-  aborted_.erase(job);
-  state_.paces.erase(job);
 }
 
 bool WorkTable::NeedsBlob(const std::string& sha256) const {
@@ -334,6 +280,8 @@ void WorkTable::Tick() {
     }
     for (const std::string& name : silent) EndSession(name, true, "the worker fell silent", calls);
     Dispatch(calls);
+    Lend(RepeatLate(state_, clock_(), options_), calls);
+    AnswerOverdue(calls);
     notes.swap(notes_);
   }
   shards_.Tick();

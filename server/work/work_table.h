@@ -106,8 +106,8 @@ class WorkTable {
   // Offers the grains of a step to workers. PublishedStep::Wait then ends with the merged result,
   // or with UNIT_ATTEMPTS_EXHAUSTED, NONDETERMINISTIC_RESULT, SHUTTING_DOWN, or what AbortJob was
   // given; with SHARD_FAILED where a merge shard failed: it is to be published again. Merge shards
-  // take its sums where there are any and `may_shard`. Requires: at least one grain; the job's step
-  // before was withdrawn.
+  // take its sums where there are any, `may_shard`, and it has as many rays as patches. Requires:
+  // at least one grain; the job's step before was withdrawn.
   absl::StatusOr<std::shared_ptr<PublishedStep>> Publish(const WorkSetup& setup,
                                                          const std::vector<WorkUnit>& grains,
                                                          bool may_shard = true);
@@ -152,7 +152,11 @@ class WorkTable {
     for (auto& call : calls) call();
   }
   void ApplyReports(const SyncRequest& request) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // Lends what is open, and tells whose leases were revoked.
   void Dispatch(Calls& calls) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Lend(const std::vector<Grant>& grants, Calls& calls) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // Answers calls that were held long enough.
+  void AnswerOverdue(Calls& calls) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Answer(const std::string& session, std::vector<GrantedLease> leases, Calls& calls)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void EndHeld(Exchange& exchange, const absl::Status& status, Calls& calls)
@@ -164,7 +168,6 @@ class WorkTable {
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // Is logged by the next tick, which holds no lock.
   void Note(std::string text, LogSubject about) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void TellRevoked() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // The step that a submission is for, or null where it is over.
   std::shared_ptr<PublishedStep> FindStep(const std::string& job, int64_t step_number) const
       ABSL_SHARED_LOCKS_REQUIRED(mutex_);

@@ -58,6 +58,17 @@ class ShardTableTest : public testing::Test {
   FakeWorker worker_{&table_, "w", 3};
 };
 
+TEST_F(ShardTableTest, AStepOfFewerRaysThanPatchesNeedsNoShards) {
+  FakeShard a(&table_, "a");
+  WorkSetup setup = MakeSetup("job");
+  const std::vector<WorkUnit> units = MakeUnits(3);
+  setup.patch_count = static_cast<PatchIndex>(3 * units[0].RayCount());
+  EXPECT_EQ((*table_.Publish(setup, units))->shards().size(), 1u);
+  table_.Withdraw("job");
+  ++setup.patch_count;
+  EXPECT_TRUE((*table_.Publish(setup, units))->shards().empty());
+}
+
 TEST_F(ShardTableTest, DividesThePatchesAmongThoseThatAreThere) {
   EXPECT_TRUE(table_.shards().Divide(100).empty());
   FakeShard a(&table_, "a"), b(&table_, "b"), c(&table_, "c");

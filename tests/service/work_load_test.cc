@@ -7,11 +7,11 @@ namespace {
 
 TEST(WorkLoad, CountsWhatNobodyHoldsAtThePaceOfItsJob) {
   WorkState state;
-  state.sessions["a"].slots = 3;
-  state.sessions["b"].slots = 2;
+  AddSession(state, "a", "", 3, {});
+  AddSession(state, "b", "", 2, {});
   AddStep(state, "known", 1, std::vector<int64_t>(5, 1000));
   AddStep(state, "new", 2, {500'000});
-  state.paces["known"].median = 1e-3;
+  state.paces["known"].seconds_per_ray.median = 1e-3;
   AddLease(state, {"known", CutUnit(state, "known", 2)}, "a", "a/leases/1", TimePoint());
   const WorkLoad load = LoadOf(state);
   EXPECT_EQ(load.queued_rays, 3 * 1000 + 500'000);
@@ -23,7 +23,7 @@ TEST(WorkLoad, CountsWhatNobodyHoldsAtThePaceOfItsJob) {
 
 TEST(WorkLoad, AUnitThatOpensAgainIsInTheQueueAgain) {
   WorkState state;
-  state.sessions["a"].slots = 1;
+  AddSession(state, "a", "", 1, {});
   AddStep(state, "job", 1, {1000, 1000});
   AddLease(state, {"job", CutUnit(state, "job", 2)}, "a", "a/leases/1", TimePoint());
   EXPECT_EQ(LoadOf(state).queued_rays, 0);
