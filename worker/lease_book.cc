@@ -51,6 +51,11 @@ void LeaseBook::Fail(const std::string& lease, const std::string& message) {
   report->second.set_error_message(message);
 }
 
+size_t LeaseBook::Unsent() const {
+  absl::MutexLock lock(&mutex_);
+  return waiting_.size() + static_cast<size_t>(running_);
+}
+
 std::vector<v1::LeaseReport> LeaseBook::Reports() const {
   absl::MutexLock lock(&mutex_);
   std::vector<v1::LeaseReport> reports;

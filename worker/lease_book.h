@@ -35,6 +35,8 @@ class LeaseBook {
   // Running the lease failed: it is reported so, until the report was answered.
   void Fail(const std::string& lease, const std::string& message);
 
+  // Leases that wait, run, or whose result is yet to be sent.
+  size_t Unsent() const;
   std::vector<v1::LeaseReport> Reports() const;
   // `reports` have reached the coordinator.
   void Confirm(const std::vector<v1::LeaseReport>& reports);

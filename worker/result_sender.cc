@@ -8,6 +8,9 @@
 namespace lambert::worker {
 namespace {
 
+// The book may change while nothing else does: a lease that waits is revoked.
+constexpr absl::Duration kLook = absl::Milliseconds(10);
+
 v1::SubmitUnitResultRequest HeaderOf(const FinishedUnit& unit) {
   v1::SubmitUnitResultRequest header;
   header.set_lease(unit.lease.name());
@@ -44,6 +47,11 @@ void ResultSender::Send(const v1::Lease& lease, UnitResult result, double run_se
   items_.push_back({lease, std::move(result), run_seconds});
 }
 
+bool ResultSender::IsTimeToSend() const {
+  return stopping_ || items_.size() >= static_cast<size_t>(options_.slots) ||
+         items_.size() >= book_->Unsent();
+}
+
 void ResultSender::StopRetrying() { stop_retrying_.Notify(); }
 
 std::vector<FinishedUnit> ResultSender::TakeBatch() {
@@ -67,6 +75,9 @@ void ResultSender::Work() {
                        ABSL_SHARED_LOCKS_REQUIRED(mutex_) { return stopping_ || !items_.empty(); };
       mutex_.Await(absl::Condition(&ready));
       if (items_.empty()) return;
+      auto is_time = [this]() ABSL_SHARED_LOCKS_REQUIRED(mutex_) { return IsTimeToSend(); };
+      while (!mutex_.AwaitWithTimeout(absl::Condition(&is_time), kLook)) {
+      }
       batch = TakeBatch();
       sending_ = batch.size();
     }

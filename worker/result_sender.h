@@ -1,6 +1,6 @@
-// Sends results while the slots go on with the next units. Those that wait meanwhile travel as one,
-// their sum: a busy link or coordinator gets fewer and denser results. Where there are merge shards
-// those get the sums, and the coordinator the ledger.
+// Sends results while the slots go on with the next units. Those that wait meanwhile, one a slot,
+// travel as one, their sum: link and coordinator get few and dense results. Where there are merge
+// shards those get the sums, and the coordinator the ledger.
 #pragma once
 
 #include <deque>
@@ -40,6 +40,8 @@ class ResultSender {
  private:
   using Outcome = v1::SubmitUnitResultResponse::Outcome;
   void Work();
+  // One result a slot waits, or nothing else is under way here.
+  bool IsTimeToSend() const ABSL_SHARED_LOCKS_REQUIRED(mutex_);
   // The items that wait and are of the step of the first one.
   std::vector<FinishedUnit> TakeBatch() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // Fails where the leases have to be given up.
