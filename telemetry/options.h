@@ -1,4 +1,4 @@
-// The options of how a program shows what it does, named once for the server and the worker.
+// The options of how a program shows what it does, named once for server, worker and merge shard.
 #pragma once
 
 #include <string>

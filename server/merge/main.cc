@@ -14,9 +14,11 @@
 #include "net/follow_server.h"
 #include "server/door_options.h"
 #include "server/merge/merge_shard.h"
+#include "server/merge/merger_text.h"
 #include "server/merge/shard_session.h"
 #include "server/rpc/rpc_server.h"
 #include "server/rpc/services.h"
+#include "telemetry/http_server.h"
 #include "telemetry/options.h"
 
 namespace lambert::server {
@@ -30,6 +32,7 @@ struct Options {
   std::string server, server_file;
   DoorOptions doors;
   CredentialFiles credentials;
+  std::string http;
   Log log;
 };
 
@@ -62,6 +65,15 @@ int Run(const Options& options, const sigset_t& signals) {
       make, [] {}, options.listen, options.doors);
   if (!server.ok()) return Fail(server.status());
   options.log("listening on " + (*server)->address());
+  std::unique_ptr<HttpServer> http;
+  if (!options.http.empty()) {
+    auto started = HttpServer::Start(
+        options.http,
+        {[&] { return MergerText(shard); }, [&] { return shard.counters().in_session.load(); }});
+    if (!started.ok()) return Fail(started.status());
+    http = *std::move(started);
+    options.log("metrics on http://" + http->address());
+  }
 
   absl::Mutex mutex;
   absl::Status refused;
@@ -111,8 +123,8 @@ int main(int argc, char** argv) {
     app.add_option(std::string("--") + option.name, options.credentials.*option.file, option.help)
         ->envname(option.variable);
   }
-  lambert::LogFormat log_format = lambert::LogFormat::kText;
-  lambert::AddLogOption(app, log_format);
+  lambert::TelemetryOptions telemetry;
+  lambert::AddTelemetryOptions(app, telemetry);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -128,7 +140,8 @@ int main(int argc, char** argv) {
   sigaddset(&signals, SIGINT);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
-  options.log = lambert::StartLog("lambert-merger", log_format);
+  options.log = lambert::StartLog("lambert-merger", telemetry.log_format);
+  options.http = telemetry.http;
   options.doors.log = [log = options.log](const std::string& line) { log(line); };
   return lambert::server::Run(options, signals);
 }

@@ -4,6 +4,7 @@
 
 #include "radiosity/core/error.h"
 #include "radiosity/shoot/result_range.h"
+#include "server/base/clock.h"
 #include "server/work/result_bytes.h"
 
 namespace lambert::server {
@@ -59,6 +60,24 @@ absl::StatusOr<int64_t> MergeShard::MaxPartBytes(int64_t step_number) const {
 }
 
 absl::StatusOr<PartOutcome> MergeShard::Submit(const Part& part) {
+  const TimePoint began = SteadyNow();
+  const absl::StatusOr<PartOutcome> outcome = Add(part);
+  counters_.part_bytes += static_cast<int64_t>(part.bytes.size());
+  counters_.merge_microseconds +=
+      std::chrono::duration_cast<std::chrono::microseconds>(SteadyNow() - began).count();
+  if (!outcome.ok()) {
+    ++counters_.parts_refused;
+  } else if (*outcome == PartOutcome::kAccepted) {
+    ++counters_.parts_accepted;
+  } else if (*outcome == PartOutcome::kDuplicate) {
+    ++counters_.parts_duplicate;
+  } else {
+    ++counters_.parts_split;
+  }
+  return outcome;
+}
+
+absl::StatusOr<PartOutcome> MergeShard::Add(const Part& part) {
   const absl::StatusOr<std::shared_ptr<Sums>> found = Find(part.step_number);
   if (!found.ok()) return found.status();
   Sums& sums = **found;
@@ -83,6 +102,7 @@ absl::StatusOr<PartOutcome> MergeShard::Submit(const Part& part) {
     is_whole = sums.rays == sums.step.rays;
   }
   if (is_whole) {
+    ++counters_.sums;
     absl::MutexLock lock(&mutex_);
     whole_.push_back(*found);
   }

@@ -13,6 +13,7 @@
 #include "absl/status/statusor.h"
 #include "absl/synchronization/mutex.h"
 #include "radiosity/shoot/unit.h"
+#include "server/merge/merge_counters.h"
 
 namespace lambert::server {
 
@@ -57,6 +58,7 @@ class MergeShard {
   absl::StatusOr<int64_t> MaxPartBytes(int64_t step_number) const;
   // RESULT_INVALID, and STEP_UNKNOWN as above.
   absl::StatusOr<PartOutcome> Submit(const Part& part);
+  MergeCounters& counters() { return counters_; }
 
   // Blocks until a step is whole and takes its sum; each is returned once. Nothing once closed.
   std::optional<MergedRange> TakeWhole();
@@ -77,7 +79,9 @@ class MergeShard {
     UnitResult sum ABSL_GUARDED_BY(mutex);
   };
   absl::StatusOr<std::shared_ptr<Sums>> Find(int64_t step_number) const;
+  absl::StatusOr<PartOutcome> Add(const Part& part);
 
+  MergeCounters counters_;
   mutable absl::Mutex mutex_;
   std::map<int64_t, std::shared_ptr<Sums>> steps_ ABSL_GUARDED_BY(mutex_);
   std::deque<std::shared_ptr<Sums>> whole_ ABSL_GUARDED_BY(mutex_);

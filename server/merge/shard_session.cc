@@ -90,6 +90,7 @@ ShardSession::~ShardSession() {
   shard_->Close();
   follower_.join();
   deliverer_.join();
+  shard_->counters().in_session = false;
 }
 
 void ShardSession::Drain(absl::Duration grace) {
@@ -116,6 +117,7 @@ void ShardSession::Follow() {
     if (response.ok()) {
       if (!is_known) options_.log("at work as merge shard " + options_.name);
       is_known = true;
+      shard_->counters().in_session = true;
       backoff.Reset();
       std::vector<MergeStep> steps;
       for (const w1::MergeStep& step : response->steps()) steps.push_back(Decode(step));
@@ -128,6 +130,7 @@ void ShardSession::Follow() {
     } else if (!absl::IsCancelled(response.status())) {
       if (is_known) options_.log("no server: " + std::string(response.status().message()));
       is_known = false;
+      shard_->counters().in_session = false;
       request.set_seen_version(0);
       backoff.Sleep(ended_);
     }

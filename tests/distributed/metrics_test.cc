@@ -38,10 +38,13 @@ std::set<std::string> Names(const std::string& page) {
 }
 
 TEST(Metrics, OfServerAndWorkerAddUp) {
-  Farm farm({"--http", "127.0.0.1:0"});
+  Farm farm({"--http", "127.0.0.1:0", "--shard-patches", "1"});
+  Process merger({LAMBERT_MERGER, "--server", farm.address(), "--http", "127.0.0.1:0"});
+  merger.WaitForError("at work as merge shard");
   Process worker({LAMBERT_WORKER, "--server", farm.address(), "--http", "127.0.0.1:0", "--name",
                   "w", "--log-format", "json"});
   const std::string server_page = Announced(farm.server(), "metrics on http://");
+  const std::string merger_page = Announced(merger, "metrics on http://");
   const std::string worker_page = Announced(worker, "metrics on http://");
   const v1::SolveJob job = farm.Watch(farm.CreateJob(100'000).name()).ended;
   ASSERT_EQ(job.state(), v1::SolveJob::STATE_SUCCEEDED);
@@ -62,8 +65,15 @@ TEST(Metrics, OfServerAndWorkerAddUp) {
   EXPECT_EQ(Value(mine, "lambert_worker_units_total{outcome=\"done\"}"),
             Value(server, "lambert_results_total{outcome=\"accepted\"}"));
   EXPECT_EQ(Value(mine, "lambert_worker_rays_total"), Value(server, "lambert_rays_total"));
-  EXPECT_EQ(Value(mine, "lambert_worker_result_bytes_total"),
-            Value(server, "lambert_result_bytes_total"));
+  const std::string sums = HttpGet(merger_page, "/metrics");
+  EXPECT_EQ(
+      Value(mine, "lambert_worker_result_bytes_total"),
+      Value(server, "lambert_result_bytes_total") + Value(sums, "lambert_merger_part_bytes_total"));
+  EXPECT_EQ(Value(sums, "lambert_merger_in_session"), 1);
+  EXPECT_EQ(Value(sums, "lambert_merger_parts_total{outcome=\"refused\"}"), 0);
+  EXPECT_GT(Value(sums, "lambert_merger_parts_total{outcome=\"accepted\"}"), 0);
+  EXPECT_GT(Value(sums, "lambert_merger_sums_total"), 0);
+  EXPECT_GT(Value(sums, "lambert_merger_merge_seconds_total"), 0);
   EXPECT_EQ(Value(mine, "lambert_worker_patch_bytes_total"),
             static_cast<double>(job.patch_set_digest().size_bytes()));
   EXPECT_EQ(HttpGet(worker_page, "/readyz").find("HTTP/1.1 200"), 0u);
@@ -76,6 +86,7 @@ TEST(Metrics, OfServerAndWorkerAddUp) {
     listed.insert(docs.substr(at + 4, docs.find_first_of("`{", at + 4) - at - 4));
   }
   shown.merge(Names(mine));
+  shown.merge(Names(sums));
   // Of jobs that run, and of those that want an error.
   shown.insert({"lambert_job_rays", "lambert_job_estimated_error", "lambert_job_wanted_error"});
   EXPECT_EQ(listed, shown);
