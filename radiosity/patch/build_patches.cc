@@ -113,10 +113,12 @@ absl::Status PatchOptions::Validate() const {
   if (max_patches < 1 || max_patches > std::numeric_limits<PatchIndex>::max()) {
     return invalid("max_patches", "give a number from 1 to 2147483647");
   }
+  if (adapt_patches < 0) return invalid("adapt_patches", "give a number of 0 or more");
   return lights.Validate();
 }
 
-absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& options) {
+absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& options,
+                                      const Cuts& cuts) {
   absl::Status status = options.Validate();
   if (!status.ok()) return status;
   std::vector<Warning> warnings = scene.warnings;
@@ -126,7 +128,7 @@ absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& op
   absl::StatusOr<Survey> survey = SurveyScene(scene, options);
   if (!survey.ok()) return survey.status();
 
-  PatchBuilder builder(*materials, scene.textures, options, survey->pieces);
+  PatchBuilder builder(*materials, scene.textures, options, cuts, survey->pieces);
   const Placement placement{survey->origin, options.metres_per_unit};
   status = ForEachTriangle(scene, placement,
                            [&](const PlacedTriangle& placed) { return builder.Add(placed); });

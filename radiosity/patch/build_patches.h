@@ -2,6 +2,7 @@
 #pragma once
 
 #include "absl/status/statusor.h"
+#include "radiosity/patch/cuts.h"
 #include "radiosity/patch/light_options.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/scene/scene.h"
@@ -20,6 +21,9 @@ struct PatchOptions {
   Blend blend = Blend::kOpaque;                     // warned of either way (ALPHA_BLEND)
   int64_t max_patches = 20'000'000;                 // more: SCENE_TOO_LARGE
   LightOptions lights = {};                         // beside those of the file
+  // Up to how many patches the solver may split where light needs it (solve/adapt_mesh.h), >= 0; 0:
+  // it splits none. BuildPatches does not look at it.
+  int64_t adapt_patches = 0;
   // INVALID_ARGUMENT (reason FIELD_INVALID) naming the field that is out of range.
   absl::Status Validate() const;
 };
@@ -32,7 +36,9 @@ struct PatchOptions {
 // multiplied by 683 on the way. Reflectance over 1 is clamped with a warning (REFLECTANCE_CLAMPED),
 // over .95 warned of (REFLECTANCE_HIGH); values that are not finite are refused by name. Patches
 // that lie on one another are named (COPLANAR_OVERLAP). No emitter at all: warning NO_EMITTERS. No
-// triangle left: SceneError with reason NO_TRIANGLES.
-absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& options);
+// triangle left: SceneError with reason NO_TRIANGLES. Where edges are marked that no patch has,
+// nothing happens to them.
+absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& options,
+                                      const Cuts& cuts = {});
 
 }  // namespace lambert

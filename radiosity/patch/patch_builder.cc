@@ -60,10 +60,11 @@ std::string Where(const PatchSource& source) {
 
 PatchBuilder::PatchBuilder(const std::vector<PatchMaterial>& materials,
                            const std::vector<Texture>& textures, const PatchOptions& options,
-                           double expected_patches)
+                           const Cuts& cuts, double expected_patches)
     : materials_(materials),
       textures_(textures),
       options_(options),
+      cuts_(cuts),
       samples_per_edge_(SamplesPerEdge(expected_patches)) {}
 
 absl::Status PatchBuilder::Add(const PlacedTriangle& placed) {
@@ -76,7 +77,8 @@ absl::Status PatchBuilder::Add(const PlacedTriangle& placed) {
     return absl::OkStatus();
   }
   pieces_.clear();
-  SplitTriangle(placed.corners, options_.max_edge_m, &pieces_);
+  SplitLongEdges(WholePiece(placed.corners), options_.max_edge_m, &pieces_);
+  for (const EdgeMarks& marks : cuts_.levels) HalveMarked(marks, &pieces_);
   for (const SplitPiece& piece : pieces_) {
     absl::Status status = AddPiece(placed, piece);
     if (!status.ok()) return status;

@@ -6,6 +6,7 @@
 
 #include "absl/status/statusor.h"
 #include "radiosity/patch/build_patches.h"
+#include "radiosity/patch/cuts.h"
 #include "radiosity/patch/patch_material.h"
 #include "radiosity/patch/place.h"
 #include "radiosity/patch/split.h"
@@ -23,13 +24,13 @@ std::string Where(const PatchSource& source);
 class PatchBuilder {
  public:
   // `expected_patches`: at least about how many there will be; textures are sampled the finer, the
-  // fewer. Materials, textures and options must outlive the builder.
+  // fewer. Materials, textures, options and cuts must outlive the builder.
   PatchBuilder(const std::vector<PatchMaterial>& materials, const std::vector<Texture>& textures,
-               const PatchOptions& options, double expected_patches);
+               const PatchOptions& options, const Cuts& cuts, double expected_patches);
 
   // Splits one triangle, averages its textures and leaves out the patches that alpha mode MASK cuts
-  // away by more than half. Without area it is only counted. SceneError for
-  // texture coordinates that are missing or not finite; SCENE_TOO_LARGE.
+  // away by more than half. Without area it is only counted. SceneError for texture coordinates
+  // that are missing or not finite; SCENE_TOO_LARGE.
   absl::Status Add(const PlacedTriangle& placed);
 
   // Corners, materials, twins and sources of all patches in Morton order, and warnings
@@ -51,6 +52,7 @@ class PatchBuilder {
   const std::vector<PatchMaterial>& materials_;
   const std::vector<Texture>& textures_;
   const PatchOptions& options_;
+  const Cuts& cuts_;
   const int samples_per_edge_;
   std::vector<SplitPiece> pieces_;  // of the triangle in hand
   PatchSet fronts_;                 // twin: kNoPatch, or 0 where there is a back to make

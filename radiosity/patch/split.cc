@@ -1,5 +1,7 @@
 #include "radiosity/patch/split.h"
 
+#include <utility>
+
 namespace lambert {
 namespace {
 
@@ -14,22 +16,30 @@ bool IsTooLong(const SplitCorner& a, const SplitCorner& b, double max_edge_m) {
   return middle != a.position && middle != b.position;
 }
 
-void Split(const SplitPiece& piece, double max_edge_m, std::vector<SplitPiece>* pieces) {
+struct Parts {
+  std::array<SplitPiece, 4> piece;
+  int count = 0;
+  void Add(const SplitCorner& a, const SplitCorner& b, const SplitCorner& c) {
+    piece[count++] = {a, b, c};
+  }
+};
+
+// The parts of a piece whose edges from corner k to the next are halved where cut[k].
+Parts Divide(const SplitPiece& piece, const std::array<bool, 3>& cut) {
   const auto& [a, b, c] = piece;
-  const bool cut[3] = {IsTooLong(a, b, max_edge_m), IsTooLong(b, c, max_edge_m),
-                       IsTooLong(c, a, max_edge_m)};
   const int cuts = cut[0] + cut[1] + cut[2];
+  Parts parts;
   if (cuts == 0) {
-    pieces->push_back(piece);
-    return;
+    parts.Add(a, b, c);
+    return parts;
   }
   if (cuts == 3) {
     const SplitCorner ab = Midpoint(a, b), bc = Midpoint(b, c), ca = Midpoint(c, a);
-    for (const SplitPiece& part : {SplitPiece{a, ab, ca}, SplitPiece{ab, b, bc},
-                                   SplitPiece{ca, bc, c}, SplitPiece{ab, bc, ca}}) {
-      Split(part, max_edge_m, pieces);
-    }
-    return;
+    parts.Add(a, ab, ca);
+    parts.Add(ab, b, bc);
+    parts.Add(ca, bc, c);
+    parts.Add(ab, bc, ca);
+    return parts;
   }
   // Rotated so that the first edge is cut, and with two cuts the last one is not.
   int first = 0;
@@ -37,20 +47,21 @@ void Split(const SplitPiece& piece, double max_edge_m, std::vector<SplitPiece>* 
   const SplitCorner &p = piece[first], &q = piece[(first + 1) % 3], &r = piece[(first + 2) % 3];
   const SplitCorner pq = Midpoint(p, q);
   if (cuts == 1) {
-    Split({p, pq, r}, max_edge_m, pieces);
-    Split({pq, q, r}, max_edge_m, pieces);
-    return;
+    parts.Add(p, pq, r);
+    parts.Add(pq, q, r);
+    return parts;
   }
   const SplitCorner qr = Midpoint(q, r);
-  Split({pq, q, qr}, max_edge_m, pieces);
+  parts.Add(pq, q, qr);
   // The rest is the quadrilateral p, pq, qr, r: cut along its shorter diagonal.
   if (Length(qr.position - p.position) < Length(r.position - pq.position)) {
-    Split({p, pq, qr}, max_edge_m, pieces);
-    Split({p, qr, r}, max_edge_m, pieces);
+    parts.Add(p, pq, qr);
+    parts.Add(p, qr, r);
   } else {
-    Split({p, pq, r}, max_edge_m, pieces);
-    Split({pq, qr, r}, max_edge_m, pieces);
+    parts.Add(p, pq, r);
+    parts.Add(pq, qr, r);
   }
+  return parts;
 }
 
 }  // namespace
@@ -62,15 +73,35 @@ double MinimumPieces(double area_m2, double longest_edge_m, double max_edge_m) {
   return std::max({1.0, edges, area_m2 / max_edge_m / max_edge_m / (std::sqrt(3.0) / 4)});
 }
 
-void SplitTriangle(const std::array<Vec3, 3>& triangle, double max_edge_m,
-                   std::vector<SplitPiece>* pieces) {
-  const SplitPiece whole = {
-      {{triangle[0], {1, 0, 0}}, {triangle[1], {0, 1, 0}}, {triangle[2], {0, 0, 1}}}};
+SplitPiece WholePiece(const std::array<Vec3, 3>& corners) {
+  return {{{corners[0], {1, 0, 0}}, {corners[1], {0, 1, 0}}, {corners[2], {0, 0, 1}}}};
+}
+
+void SplitLongEdges(const SplitPiece& piece, double max_edge_m, std::vector<SplitPiece>* pieces) {
+  const auto& [a, b, c] = piece;
+  std::array<bool, 3> cut = {};
   if (max_edge_m > 0) {
-    Split(whole, max_edge_m, pieces);
-  } else {
-    pieces->push_back(whole);
+    cut = {IsTooLong(a, b, max_edge_m), IsTooLong(b, c, max_edge_m), IsTooLong(c, a, max_edge_m)};
   }
+  if (cut == std::array<bool, 3>{}) {
+    pieces->push_back(piece);
+    return;
+  }
+  const Parts parts = Divide(piece, cut);
+  for (int k = 0; k < parts.count; ++k) SplitLongEdges(parts.piece[k], max_edge_m, pieces);
+}
+
+void HalveMarked(const EdgeMarks& marks, std::vector<SplitPiece>* pieces) {
+  std::vector<SplitPiece> halved;
+  for (const SplitPiece& piece : *pieces) {
+    std::array<bool, 3> cut;
+    for (int k = 0; k < 3; ++k) {
+      cut[k] = marks.Has(piece[k].position, piece[(k + 1) % 3].position);
+    }
+    const Parts parts = Divide(piece, cut);
+    halved.insert(halved.end(), parts.piece.begin(), parts.piece.begin() + parts.count);
+  }
+  *pieces = std::move(halved);
 }
 
 }  // namespace lambert

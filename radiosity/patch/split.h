@@ -1,10 +1,12 @@
-// Splits triangles until no edge is longer than wanted, without T-junctions between neighbours.
+// Splits triangles without T-junctions between neighbours: edges are halved, or not, by their end
+// points alone, so neighbours that share an edge also share every point on it.
 #pragma once
 
 #include <array>
 #include <vector>
 
 #include "radiosity/core/vec3.h"
+#include "radiosity/patch/edge_marks.h"
 
 namespace lambert {
 
@@ -19,11 +21,14 @@ using SplitPiece = std::array<SplitCorner, 3>;
 // scene by before anything is made. Requires: max_edge_m > 0.
 double MinimumPieces(double area_m2, double longest_edge_m, double max_edge_m);
 
-// Appends pieces that cover `triangle` once, wound like it, each edge at most `max_edge_m` long.
-// max_edge_m = 0: the triangle itself. An edge is cut in its middle, or not, by its two end points
-// alone, so neighbours that share an edge also share every point on it.
-// Requires: MinimumPieces is not huge.
-void SplitTriangle(const std::array<Vec3, 3>& triangle, double max_edge_m,
-                   std::vector<SplitPiece>* pieces);
+// Triangle `corners` as the one piece of itself.
+SplitPiece WholePiece(const std::array<Vec3, 3>& corners);
+
+// Appends pieces that cover `piece` once, wound like it, each edge at most `max_edge_m` long.
+// max_edge_m = 0: the piece itself. Requires: MinimumPieces is not huge.
+void SplitLongEdges(const SplitPiece& piece, double max_edge_m, std::vector<SplitPiece>* pieces);
+
+// Replaces each piece by two to four where edges of it are marked, by one step of halving.
+void HalveMarked(const EdgeMarks& marks, std::vector<SplitPiece>* pieces);
 
 }  // namespace lambert

@@ -16,11 +16,11 @@ Point Key(Vec3 p) { return {p.x, p.y, p.z}; }
 
 std::vector<SplitPiece> SplitAll(const std::vector<std::array<Vec3, 3>>& triangles, double edge) {
   std::vector<SplitPiece> pieces;
-  for (const auto& triangle : triangles) SplitTriangle(triangle, edge, &pieces);
+  for (const auto& triangle : triangles) SplitLongEdges(WholePiece(triangle), edge, &pieces);
   return pieces;
 }
 
-TEST(SplitTriangle, PiecesCoverTheTriangleOnceWoundAlikeWithShortEdges) {
+TEST(SplitLongEdges, PiecesCoverTheTriangleOnceWoundAlikeWithShortEdges) {
   const std::array<Vec3, 3> triangle = {Vec3{0, 0, 0}, Vec3{3, 0.2, 0}, Vec3{0.4, 1.1, 0}};
   const double whole = Cross(triangle[1] - triangle[0], triangle[2] - triangle[0]).z / 2;
   for (double edge : {0.05, 0.3, 1.0, 2.9, 10.0}) {
@@ -42,7 +42,7 @@ TEST(SplitTriangle, PiecesCoverTheTriangleOnceWoundAlikeWithShortEdges) {
 
 // Without T-junctions each directed edge inside the mesh has its reverse, and those without one lie
 // on the border, whose length is known.
-TEST(SplitTriangle, NeighboursShareEveryPointOfTheirCommonEdge) {
+TEST(SplitLongEdges, NeighboursShareEveryPointOfTheirCommonEdge) {
   const Vec3 a{0, 0, 0}, b{1, 0.1, 0.2}, c{0.9, 1.3, 0}, d{-2, 0.7, 0.4};
   const std::vector<SplitPiece> pieces = SplitAll({{a, b, c}, {c, d, a}}, 0.11);
   std::set<std::pair<Point, Point>> edges;
@@ -61,11 +61,11 @@ TEST(SplitTriangle, NeighboursShareEveryPointOfTheirCommonEdge) {
   EXPECT_NEAR(border_m, Length(b - a) + Length(c - b) + Length(d - c) + Length(a - d), 1e-12);
 }
 
-TEST(SplitTriangle, WithoutALimitTheTriangleStaysWhole) {
+TEST(SplitLongEdges, WithoutALimitTheTriangleStaysWhole) {
   EXPECT_EQ(SplitAll({{Vec3{0, 0, 0}, Vec3{9, 0, 0}, Vec3{0, 9, 0}}}, 0).size(), 1u);
 }
 
-TEST(SplitTriangle, EndsAtTheResolutionOfDouble) {
+TEST(SplitLongEdges, EndsAtTheResolutionOfDouble) {
   const double next = std::nextafter(1.0, 2.0);
   EXPECT_EQ(SplitAll({{Vec3{1, 1, 1}, Vec3{next, 1, 1}, Vec3{1, next, 1}}}, 1e-300).size(), 2u);
 }
