@@ -12,7 +12,7 @@
 namespace lambert {
 
 struct PlanItem {
-  std::string part;  // PartName, for --with and --without
+  std::string part;  // PartName, for --with and --without; or "adapt", for --adapt
   std::string item;  // "pyramids", "black patches", ...
   bool left_out = false;
   bool forced = false;  // by --with or --without

@@ -40,6 +40,8 @@ struct Progress {
   double estimated_rms_patch = -1;  // CONTRACT's rms_patch, estimated; -1: not known yet
   double wanted_rms_area = 0;       // 0: none
   int64_t max_rays = 0;             // 0: none
+  int32_t pilot = 0;          // of adaptive meshing, 1, 2, ...: all above is of that pilot; 0: none
+  int64_t pilot_patches = 0;  // that the pilot solves
 };
 
 // The averaged solution after a pass.

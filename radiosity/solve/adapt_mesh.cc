@@ -1,0 +1,188 @@
+#include "radiosity/solve/adapt_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <utility>
+
+#include "radiosity/core/philox.h"
+
+namespace lambert {
+namespace {
+
+constexpr double kShareOfError = 0.6;  // that the patches have which are split at once (Dor96)
+constexpr int32_t kMaxPilots = 8, kPilotShare = 4 * kMaxPilots;
+constexpr int64_t kRaysOfPatch = 512;  // of a pilot: neighbours that differ by a quarter are told
+constexpr int64_t kLeastRays = 1 << 18, kMostRays = 1 << 24;
+constexpr double kRaysPerSecond = 5e6;       // of one thread (docs/benchmarks.md)
+constexpr int64_t kGrowth = 3;               // of the patches, from one pilot to the next, at most
+constexpr uint32_t kPilotName = 0x50494C4F;  // of their seeds' random numbers: "PILO"
+constexpr double kUnsentTolerance = 1e-3;    // what comes late is spread evenly
+
+// What large triangles are split to before the first pilot, which sees no difference inside them:
+// right-angled halves of squares have a sixth of the square of their longest edge, about.
+double CoarseEdge(const PatchSet& patches, int64_t budget) {
+  const double area = std::accumulate(patches.area_m2.begin(), patches.area_m2.end(), 0.0);
+  return std::sqrt(6 * area / static_cast<double>(std::clamp<int64_t>(budget / 16, 64, 4096)));
+}
+
+int64_t PilotRays(int64_t patches, const SolveOptions& solve) {
+  int64_t rays = std::clamp(kRaysOfPatch * patches, kLeastRays, kMostRays);
+  if (solve.max_rays > 0) rays = std::min(rays, solve.max_rays / kPilotShare);
+  if (solve.max_time_s > 0) {
+    rays = std::min<int64_t>(rays, std::llround(solve.max_time_s * kRaysPerSecond / kPilotShare));
+  }
+  return std::max<int64_t>(1, rays);
+}
+
+// A pilot's random numbers are those of no pass of the solution.
+SolveOptions PilotOptions(int64_t patches, const SolveOptions& solve, int32_t number) {
+  SolveOptions pilot;
+  pilot.shoot.method = Method::kPmcr;
+  pilot.shoot.sequence = solve.shoot.sequence;
+  pilot.shoot.parts.with.Add(Part::kStdError);
+  const auto bits =
+      Philox({static_cast<uint32_t>(number), kPilotName, 0, 0},
+             {static_cast<uint32_t>(solve.seed), static_cast<uint32_t>(solve.seed >> 32)});
+  pilot.seed = uint64_t{bits[1]} << 32 | bits[0];
+  pilot.max_rays = PilotRays(patches, solve);
+  pilot.unsent_tolerance = kUnsentTolerance;
+  return pilot;
+}
+
+template <typename... Values>
+std::string Text(const char* format, Values... values) {
+  char text[240];
+  std::snprintf(text, sizeof(text), format, values...);
+  return text;
+}
+
+double WantedError(const SolveOptions& solve) {
+  return solve.max_error > 0 ? solve.max_error : kDefaultMaxError;
+}
+
+// Why there is nothing to adapt; "" where there is.
+std::string WhyNone(const PatchSet& coarse, const PatchOptions& options) {
+  if (EmittedFlux(coarse) == Rgb{}) return "nothing emits light";
+  if (coarse.size() >= options.adapt_patches) {
+    return Text("%lld patches are the budget of %lld, or more",
+                static_cast<long long>(coarse.size()),
+                static_cast<long long>(options.adapt_patches));
+  }
+  return "";
+}
+
+PlanItem Item(bool left_out, const std::string& reason) {
+  return {"adapt", "adaptive meshing", left_out, false, reason, ""};
+}
+
+}  // namespace
+
+void AddMeshing(const PatchSet& coarse, const PatchOptions& options, Plan& plan) {
+  if (options.adapt_patches == 0) return;
+  const std::string why_none = WhyNone(coarse, options);
+  if (!why_none.empty()) {
+    plan.items.push_back(Item(true, why_none));
+    return;
+  }
+  plan.items.push_back(
+      Item(false, Text("pilots of %.2g rays or more look for differences between neighbours; up "
+                       "to %lld patches",
+                       static_cast<double>(PilotRays(coarse.size(), plan.options)),
+                       static_cast<long long>(options.adapt_patches))));
+}
+
+PlanItem TellMeshing(const Meshing& meshing, int64_t patches) {
+  std::string reason = meshing.reason;
+  if (meshing.pilots > 0) {
+    reason = Text("%d pilot(s), %.2g rays: %lld patches became %lld; ", meshing.pilots,
+                  static_cast<double>(meshing.pilot_rays),
+                  static_cast<long long>(meshing.coarse_patches), static_cast<long long>(patches)) +
+             reason;
+  }
+  return Item(patches == meshing.coarse_patches, reason);
+}
+
+EdgeMarks ChooseSplits(const PatchSet& patches, const MeshError& error, int64_t most_patches) {
+  std::vector<PatchIndex> order(error.squares.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](PatchIndex a, PatchIndex b) { return error.squares[a] > error.squares[b]; });
+  const double all = std::accumulate(error.squares.begin(), error.squares.end(), 0.0);
+  size_t count = 0;
+  for (double sum = 0; count < order.size() && sum < kShareOfError * all; ++count) {
+    sum += error.squares[order[count]];
+  }
+  const auto mark = [&](size_t first) {
+    return MarkPatches(patches, {order.begin(), order.begin() + static_cast<int64_t>(first)});
+  };
+  EdgeMarks marks = mark(count);
+  if (CountHalved(patches, marks) <= most_patches) return marks;
+  size_t fits = 0;  // `count` does not
+  while (count - fits > 1) {
+    const size_t middle = fits + (count - fits) / 2;
+    (CountHalved(patches, mark(middle)) <= most_patches ? fits : count) = middle;
+  }
+  return mark(fits);
+}
+
+absl::StatusOr<std::shared_ptr<const PatchSet>> AdaptMesh(const Scene& scene,
+                                                          const PatchOptions& options,
+                                                          const SolveOptions& solve, RunPilot run,
+                                                          Meshing* meshing) {
+  PatchOptions split = options;
+  Cuts cuts;
+  std::shared_ptr<const PatchSet> patches;
+  const auto build = [&]() -> absl::Status {
+    absl::StatusOr<PatchSet> built = BuildPatches(scene, split, cuts);
+    if (built.ok()) patches = std::make_shared<const PatchSet>(*std::move(built));
+    return built.status();
+  };
+  if (absl::Status status = build(); !status.ok()) return status;
+  meshing->coarse_patches = patches->size();
+  const std::shared_ptr<const PatchSet> coarse = patches;
+  meshing->reason = WhyNone(*coarse, options);
+  if (!meshing->reason.empty()) return coarse;
+  const int64_t budget = std::min(options.adapt_patches, options.max_patches);
+  if (split.max_edge_m == 0) {
+    split.max_edge_m = CoarseEdge(*coarse, budget);
+    if (absl::Status status = build(); !status.ok()) return status;
+  }
+  if (patches->size() > budget) {
+    split.max_edge_m = options.max_edge_m;
+    patches = coarse;
+  }
+  const double wanted = WantedError(solve);
+  meshing->reason = Text("%d pilots are the most there are", kMaxPilots);
+  while (meshing->pilots < kMaxPilots) {
+    const SolveOptions pilot = PilotOptions(patches->size(), solve, meshing->pilots);
+    const absl::StatusOr<Solution> solution = run(patches, pilot, ++meshing->pilots);
+    if (!solution.ok()) return solution.status();
+    const MeshError error = EstimateMeshError(*patches, *solution);
+    meshing->predicted_error = error.rms_area;
+    if (error.rms_area == 0) {
+      meshing->reason = "neighbours differ by no more than noise";
+      if (cuts.levels.empty()) return coarse;
+      break;
+    }
+    if (error.rms_area <= wanted) {
+      meshing->reason = Text("light varies inside patches by %.2g %%, under the wanted %.2g %%",
+                             100 * error.rms_area, 100 * wanted);
+      break;
+    }
+    EdgeMarks marks = ChooseSplits(*patches, error, std::min(budget, kGrowth * patches->size()));
+    if (marks.empty()) {
+      meshing->reason = Text(
+          "the budget of %lld patches is spent; light varies inside them by "
+          "%.2g %%",
+          static_cast<long long>(budget), 100 * error.rms_area);
+      break;
+    }
+    cuts.levels.push_back(std::move(marks));
+    if (absl::Status status = build(); !status.ok()) return status;
+  }
+  return patches;
+}
+
+}  // namespace lambert
