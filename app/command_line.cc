@@ -266,6 +266,9 @@ std::vector<std::string> Parser::Warnings() const {
   const Method method = options.solve.shoot.method;
   WarnOfEffectless(SettingsWithoutEffect(method),
                    fmt::format("with --method {}", MethodName(method)), warnings);
+  if (options.patch.adapt_patches == 0) {
+    WarnOfEffectless({"adapt-patches"}, "where patches are not adapted (see --adapt)", warnings);
+  }
   if (!options.server.empty()) {
     WarnOfEffectless(OptionsOfThisProcess(),
                      "with --server: work is done by the lambert-workers that serve it", warnings);
@@ -311,8 +314,11 @@ absl::Status Parser::CheckComplete() const {
 
 absl::StatusOr<ParsedLine> Parser::Finish(const Settings& settings) {
   draft_.options.command = chosen_->command;
+  // Told not to split, patches stay as they are.
+  const bool may_split =
+      draft_.options.patch.max_edge_m > 0 || LayerOf("max-edge", settings) == Layer::kDefault;
   // A number beats a name from the same source; any source beats those under it.
-  SettleQuality(draft_, LayerOf("quality", settings) > LayerOf("max-error", settings));
+  SettleQuality(draft_, LayerOf("quality", settings) > LayerOf("max-error", settings), may_split);
   if (draft_.options.solve.shoot.method == Method::kImportance ||
       chosen_->command == Command::kBench) {
     draft_.options.solve.shoot.region = draft_.options.regions;

@@ -102,15 +102,6 @@ std::vector<std::string> SettingsWithoutEffect(Method method) {
   return names;
 }
 
-void SettleQuality(Draft& draft, bool counts_for_error) {
-  const std::string& quality = draft.quality;
-  if (!quality.empty() && counts_for_error) {
-    draft.options.solve.max_error = quality == "preview" ? 0.1 : quality == "draft" ? 0.03 : 0.01;
-  }
-  const int rays = quality == "final" ? 64 : 0;
-  draft.options.final_gather_rays = draft.final_gather_rays < 0 ? rays : draft.final_gather_rays;
-}
-
 void AddSceneOptions(CLI::App& command, Draft& draft) {
   PatchOptions& patch = draft.options.patch;
   command.add_option("SCENE", draft.options.scene_path, "a .glb or .gltf file")
@@ -122,6 +113,7 @@ void AddSceneOptions(CLI::App& command, Draft& draft) {
       ->option_text("M")
       ->check(NumberFrom(0))
       ->group(kScene);
+  AddAdaptOptions(command, draft);
   command
       .add_flag("--two-sided", patch.two_sided,
                 "both sides of every triangle reflect, whatever its material says")
@@ -169,7 +161,7 @@ void AddStopOptions(CLI::App& command, Draft& draft) {
       ->group(kStop);
   command
       .add_option("--quality", draft.quality,
-                  "wanted error by name: preview (0.1), draft (0.03), final (0.01)")
+                  "wanted error by name: preview (0.1), draft (0.03), final (0.01); see --adapt")
       ->option_text("NAME")
       ->check(OneOf({"preview", "draft", "final"}))
       ->group(kStop);
@@ -283,7 +275,8 @@ void AddJsonOption(CLI::App& command, Draft& draft) {
 void AddBenchOptions(CLI::App& command, Draft& draft) {
   BenchOptions& bench = draft.options.bench;
   RemoveOptions(command, {"SCENE", "--outputs", "--final-gather", "--sensors", "--work-plane",
-                          "--tone-map", "--exposure", "--method", "--max-error", "--quality"});
+                          "--tone-map", "--exposure", "--method", "--max-error", "--quality",
+                          "--adapt", "--adapt-patches"});
   for (const char* budget : {"--max-rays", "--max-time"}) command.get_option(budget)->group(kBench);
   command.add_option("SCENE", bench.scenes, ".glb or .gltf files; several get a folder each")
       ->option_text("(required)")

@@ -8,6 +8,7 @@
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
 #include "radiosity/output/run_json.h"
+#include "radiosity/solve/adapt_mesh.h"
 #include "radiosity/solve/plan.h"
 
 namespace lambert::app {
@@ -117,7 +118,9 @@ absl::StatusOr<client::PlannedScene> MakePlanned(const SceneBundle& bundle, cons
   if (absl::Status status = ValidateFor(*patches, options.solve); !status.ok()) {
     return status;
   }
-  return client::PlannedScene{MakePlan(*patches, options.solve), patches->warnings};
+  client::PlannedScene planned{MakePlan(*patches, options.solve), patches->warnings};
+  AddMeshing(*patches, options.patch, planned.plan);
+  return planned;
 }
 
 }  // namespace

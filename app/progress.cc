@@ -30,7 +30,8 @@ nlohmann::ordered_json OrNull(double value) {
 std::string JsonLine(const Progress& progress, double max_time_s) {
   const nlohmann::ordered_json line = {
       {"progress",
-       {{"pass", progress.pass},
+       {{"pilot", progress.pilot},
+        {"pass", progress.pass},
         {"step", progress.step},
         {"rays", progress.rays},
         {"seconds", progress.seconds},

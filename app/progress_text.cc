@@ -77,6 +77,11 @@ double EstimateSecondsLeft(const Progress& progress, double max_time_s) {
 }
 
 std::string DescribeProgress(const Progress& progress, double max_time_s) {
+  if (progress.pilot > 0) {
+    return fmt::format("meshing: pilot {} of {} patches, {}", progress.pilot,
+                       progress.pilot_patches,
+                       FormatCount(static_cast<double>(progress.rays), "rays"));
+  }
   std::string text = fmt::format("pass {}", progress.pass + 1);
   const std::string wanted =
       progress.wanted_rms_area > 0 ? " -> " + FormatPercent(progress.wanted_rms_area) : "";

@@ -113,6 +113,7 @@ absl::StatusOr<RunRecord> CollectRecord(client::Client& client, const client::Jo
   record.scene_digest = job.scene.substr(job.scene.find('/') + 1);
   record.patches = std::move(patches);
   record.patch_options = job.patch_options;
+  record.meshing = job.meshing;
   record.plan = job.plan;
   record.snapshot = {job.snapshot_version, job.snapshot_progress, *std::move(solution)};
   record.stop_reason = job.stop_reason;

@@ -45,6 +45,7 @@ void FromProto(const v1::PatchSpec& spec, PatchOptions& options) {
   if (spec.has_meters_per_unit()) options.metres_per_unit = spec.meters_per_unit();
   options.blend = spec.blend() == v1::PatchSpec::BLEND_OMIT ? Blend::kOmit : Blend::kOpaque;
   if (spec.has_max_patch_count()) options.max_patches = spec.max_patch_count();
+  options.adapt_patches = spec.adapt_patch_count();
   options.lights.sky = spec.lights().sky();
   options.lights.sky_illuminance_lx = spec.lights().sky_illuminance_lux();
   options.lights.sun_azimuth_deg = spec.lights().sun_azimuth_degrees();
@@ -82,6 +83,7 @@ v1::SolveSpec ToProto(const PatchOptions& patch, const SolveOptions& solve) {
   spec.mutable_patch()->set_blend(patch.blend == Blend::kOmit ? v1::PatchSpec::BLEND_OMIT
                                                               : v1::PatchSpec::BLEND_OPAQUE);
   spec.mutable_patch()->set_max_patch_count(patch.max_patches);
+  spec.mutable_patch()->set_adapt_patch_count(patch.adapt_patches);
   ToProto(patch.lights, *spec.mutable_patch()->mutable_lights());
   spec.mutable_shoot()->set_method(MethodName(solve.shoot.method));
   for (const auto& [name, value] : ChangedSettings(solve.shoot)) {
@@ -123,7 +125,9 @@ Progress FromProto(const v1::Progress& progress) {
           .estimated_rms_area = progress.estimated_rms_area(),
           .estimated_rms_patch = progress.estimated_rms_patch(),
           .wanted_rms_area = progress.wanted_rms_area(),
-          .max_rays = progress.max_ray_count()};
+          .max_rays = progress.max_ray_count(),
+          .pilot = progress.pilot(),
+          .pilot_patches = progress.pilot_patch_count()};
 }
 
 Plan FromProto(const v1::Plan& plan) {
@@ -138,6 +142,11 @@ Plan FromProto(const v1::Plan& plan) {
   result.worker_bytes = plan.worker_size_bytes();
   result.first_pass_rays = plan.first_pass_ray_count();
   return result;
+}
+
+Meshing FromProto(const v1::Meshing& meshing) {
+  return {meshing.coarse_patch_count(), meshing.pilot_count(), meshing.pilot_ray_count(),
+          meshing.predicted_rms_area(), meshing.seconds(),     meshing.reason()};
 }
 
 BlobRef FromProto(const v1::Digest& digest) { return {digest.sha256(), digest.size_bytes()}; }
@@ -156,6 +165,7 @@ Job FromProto(const v1::SolveJob& job) {
   }
   FromProto(job.spec(), result.patch_options, result.solve_options);
   if (job.has_plan()) result.plan = FromProto(job.plan());
+  if (job.has_meshing()) result.meshing = FromProto(job.meshing());
   result.patch_set = FromProto(job.patch_set_digest());
   result.progress = FromProto(job.progress());
   result.snapshot_version = job.latest_snapshot().version();

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "radiosity/core/warning.h"
 #include "radiosity/patch/build_patches.h"
+#include "radiosity/solve/adapt_mesh.h"
 #include "radiosity/solve/plan.h"
 #include "radiosity/solve/solution.h"
 #include "radiosity/solve/solver.h"
@@ -38,8 +40,9 @@ struct Job {
   absl::Status error;  // of a failed job, with its ErrorDetail
   std::vector<Warning> warnings;
   PatchOptions patch_options;
-  SolveOptions solve_options;  // as they were asked for
-  Plan plan;                   // patches == 0: not made yet
+  SolveOptions solve_options;      // as they were asked for
+  Plan plan;                       // patches == 0: not made yet
+  std::optional<Meshing> meshing;  // absent until it is done, and where it is off
   BlobRef patch_set;
   Progress progress;
   int64_t snapshot_version = 0;  // of the newest snapshot; 0: none yet

@@ -143,7 +143,9 @@ absl::StatusOr<v1::PlanSceneResponse> Coordinator::PlanScene(const Identity& who
     return status;
   }
   v1::PlanSceneResponse response;
-  *response.mutable_plan() = EncodePlan(MakePlan(*patches, options->solve), request.spec());
+  Plan plan = MakePlan(*patches, options->solve);
+  AddMeshing(*patches, options->patch, plan);
+  *response.mutable_plan() = EncodePlan(plan, request.spec());
   for (const Warning& warning : patches->warnings) {
     *response.add_warnings() = EncodeWarning(warning);
   }

@@ -52,6 +52,15 @@ Json PlanJson(const Plan& plan) {
           {"items", PlanItemsJson(plan)}};
 }
 
+Json MeshingJson(const Meshing& meshing) {
+  return {{"coarse_patches", meshing.coarse_patches},
+          {"pilots", meshing.pilots},
+          {"pilot_rays", meshing.pilot_rays},
+          {"predicted_rms_area", KnownOrNull(meshing.predicted_error)},
+          {"seconds", meshing.seconds},
+          {"reason", meshing.reason}};
+}
+
 Json LedgerJson(const Ledger& ledger, const char* unit) {
   return {{"unit", unit},
           {"emitted", RgbJson(ledger.emitted)},
@@ -113,6 +122,7 @@ Json LightmapJson(const Atlas& atlas) {
 
 Json PatchOptionsJson(const PatchOptions& options) {
   return {{"max_edge_m", options.max_edge_m},
+          {"adapt_patches", options.adapt_patches},
           {"two_sided", options.two_sided},
           {"emission_unit", options.emission_unit == EmissionUnit::kNit ? "nit" : "W/m2/sr"},
           {"metres_per_unit", options.metres_per_unit},
@@ -145,6 +155,7 @@ std::string EncodeRunJson(const RunRecord& record, const std::optional<PictureFa
   for (const auto& [what, version] : record.versions) json["versions"][what] = version;
   json["pins"] = record.unit_version;
   json["plan"] = PlanJson(record.plan);
+  if (record.meshing) json["meshing"] = MeshingJson(*record.meshing);
   json["ledger"] = LedgerJson(record.snapshot.solution->ledger,
                               UnitNamesOf(record.patch_options.emission_unit).flux);
   json["totals"] = TotalsJson(record);

@@ -15,6 +15,7 @@
 #include "radiosity/patch/build_patches.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/scene/scene.h"
+#include "radiosity/solve/adapt_mesh.h"
 #include "radiosity/solve/plan.h"
 #include "radiosity/solve/solution.h"
 #include "radiosity/solve/solver.h"
@@ -30,8 +31,9 @@ struct RunRecord {
   std::shared_ptr<const Atlas> atlas;  // of both; null where no lightmap is wanted
   PatchOptions patch_options;
   PictureOptions picture_options;
-  Plan plan;          // with the options that were used
-  Snapshot snapshot;  // the last one; its solution is not null
+  std::optional<Meshing> meshing;  // where it was on
+  Plan plan;                       // with the options that were used
+  Snapshot snapshot;               // the last one; its solution is not null
   StopReason stop_reason = StopReason::kNone;
   bool interrupted = false;                                   // stopped by hand before any goal
   int workers = 0;                                            // that took part; 0: not known

@@ -11,7 +11,7 @@
 #include "lambert/v1/gather_service.pb.h"
 #include "radiosity/shoot/unit.h"
 #include "server/base/task_pool.h"
-#include "server/run/job_runner.h"
+#include "server/run/runner_parts.h"
 
 namespace lambert::server {
 

@@ -19,6 +19,7 @@ PatchOptions DecodePatch(const v1::PatchSpec& spec, int64_t max_patches) {
   if (spec.blend() == v1::PatchSpec::BLEND_OMIT) options.blend = Blend::kOmit;
   if (spec.has_max_patch_count()) options.max_patches = spec.max_patch_count();
   options.max_patches = std::min(options.max_patches, max_patches);
+  options.adapt_patches = spec.adapt_patch_count();
   options.lights.sky = spec.lights().sky();
   options.lights.sky_illuminance_lx = spec.lights().sky_illuminance_lux();
   options.lights.sun_azimuth_deg = spec.lights().sun_azimuth_degrees();
@@ -95,7 +96,25 @@ v1::Progress EncodeProgress(const Progress& progress) {
   proto.set_estimated_rms_patch(progress.estimated_rms_patch);
   proto.set_wanted_rms_area(progress.wanted_rms_area);
   proto.set_max_ray_count(progress.max_rays);
+  proto.set_pilot(progress.pilot);
+  proto.set_pilot_patch_count(progress.pilot_patches);
   return proto;
+}
+
+v1::Meshing EncodeMeshing(const Meshing& meshing) {
+  v1::Meshing proto;
+  proto.set_coarse_patch_count(meshing.coarse_patches);
+  proto.set_pilot_count(meshing.pilots);
+  proto.set_pilot_ray_count(meshing.pilot_rays);
+  proto.set_predicted_rms_area(meshing.predicted_error);
+  proto.set_seconds(meshing.seconds);
+  proto.set_reason(meshing.reason);
+  return proto;
+}
+
+Meshing DecodeMeshing(const v1::Meshing& proto) {
+  return {proto.coarse_patch_count(), proto.pilot_count(), proto.pilot_ray_count(),
+          proto.predicted_rms_area(), proto.seconds(),     proto.reason()};
 }
 
 v1::Warning EncodeWarning(const Warning& warning) {

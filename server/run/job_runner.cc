@@ -1,16 +1,17 @@
 #include "server/run/job_runner.h"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
 #include "radiosity/core/digest.h"
 #include "radiosity/core/error.h"
-#include "radiosity/patch/build_patches.h"
-#include "radiosity/shoot/options_codec.h"
+#include "radiosity/solve/adapt_mesh.h"
 #include "radiosity/solve/plan.h"
 #include "server/base/status_proto.h"
 #include "server/base/timestamp.h"
-#include "server/run/table_executor.h"
+#include "server/jobs/spec.h"
+#include "server/run/patch_maker.h"
 
 namespace lambert::server {
 namespace {
@@ -43,12 +44,22 @@ absl::Status JobRunner::Solve(Job& job, Journal& journal) {
   if (absl::Status loaded = journal.Load(); !loaded.ok()) return loaded;
   absl::StatusOr<JobOptions> options = DecodeSpec(job.Get().spec(), parts_.max_patches);
   if (!options.ok()) return options.status();
-  absl::StatusOr<std::shared_ptr<const PatchSet>> patches = PreparePatches(job, options->patch);
+  absl::StatusOr<std::shared_ptr<const PatchSet>> patches =
+      PatchMaker(parts_, job, journal).Make(*options);
   if (!patches.ok()) return patches.status();
   if (absl::Status status = ValidateFor(**patches, options->solve); !status.ok()) {
     return status;
   }
-  const Plan plan = MakePlan(**patches, options->solve);
+  Plan plan = MakePlan(**patches, options->solve);
+  SolveOptions solve = plan.options;
+  if (const v1::SolveJob record = job.Get(); record.has_meshing()) {
+    const Meshing meshing = DecodeMeshing(record.meshing());
+    plan.items.push_back(TellMeshing(meshing, (*patches)->size()));
+    // Meshing was part of the time that was given.
+    if (solve.max_time_s > 0) {
+      solve.max_time_s = std::max(solve.max_time_s / 2, solve.max_time_s - meshing.seconds);
+    }
+  }
   job.Update([&](v1::SolveJob& record) {
     *record.mutable_plan() = EncodePlan(plan, record.spec());
     record.clear_warnings();
@@ -58,76 +69,26 @@ absl::Status JobRunner::Solve(Job& job, Journal& journal) {
   });
   if (absl::Status saved = parts_.jobs->Save(job); !saved.ok()) return saved;
 
-  Solver solver(*patches, plan.options,
-                [this] { return ToSeconds(parts_.clock().time_since_epoch()); });
+  Solver solver(*patches, solve, [this] { return ToSeconds(parts_.clock().time_since_epoch()); });
   absl::StatusOr<std::string> checkpoint = journal.Checkpoint();
   if (!checkpoint.ok()) return checkpoint.status();
   if (!checkpoint->empty()) {
     if (absl::Status restored = solver.Restore(*checkpoint); !restored.ok()) return restored;
   }
-  const v1::Digest digest = job.Get().patch_set_digest();
-  TableExecutor table(parts_.work, {job.id(), digest.sha256(), digest.size_bytes(),
-                                    (*patches)->size(), EncodeShootOptions(plan.options.shoot),
-                                    plan.options.shoot.method == Method::kPhsAlpha});
-  JournalExecutor executor(&table, &journal, parts_.journal, (*patches)->size(), parts_.clock,
-                           [&](const std::string& line) {
-                             parts_.log({line, {.job = job.name()}});
-                           });
-  const absl::Status status = RunPasses(job, journal, solver, executor);
-  if (const std::string summary = executor.Summary(); !summary.empty()) {
-    parts_.log({summary, {.job = job.name()}});
-  }
+  JobSteps steps(parts_, job, journal, (*patches)->size(), solve.shoot,
+                 solver.MakeSnapshot().progress);
+  const absl::Status status = RunPasses(job, journal, solver, steps);
+  steps.LogSummary();
   return status;
 }
 
-absl::StatusOr<std::shared_ptr<const PatchSet>> JobRunner::PreparePatches(
-    Job& job, const PatchOptions& options) {
-  const v1::SolveJob record = job.Get();
-  if (record.has_patch_set_digest()) {
-    absl::StatusOr<std::shared_ptr<const Blob>> blob =
-        parts_.blobs->Get(record.patch_set_digest().sha256());
-    if (!blob.ok()) return blob.status();
-    absl::StatusOr<PatchSet> patches = DecodePatchSet(std::string((*blob)->bytes()));
-    if (!patches.ok()) return patches.status();
-    return std::make_shared<const PatchSet>(*std::move(patches));
-  }
-  absl::StatusOr<Scene> scene = parts_.scenes->Load(record.scene(), job.owner());
-  if (!scene.ok()) return scene.status();
-  absl::StatusOr<PatchSet> patches = BuildPatches(*scene, options);
-  if (!patches.ok()) return patches.status();
-  std::string bytes = EncodePatchSet(*patches);
-  v1::Digest digest;
-  digest.set_sha256(Sha256Hex(bytes));
-  digest.set_size_bytes(static_cast<int64_t>(bytes.size()));
-  absl::Status room = parts_.holdings->CheckBytes(job.owner(), digest.size_bytes());
-  if (!room.ok()) return room;
-  parts_.refs->Add(digest.sha256());
-  absl::Status stored = parts_.blobs->Put(digest.sha256(), std::move(bytes));
-  if (!stored.ok()) {
-    parts_.refs->Release(digest.sha256());
-    return stored;
-  }
-  job.Update([&](v1::SolveJob& changed) { *changed.mutable_patch_set_digest() = digest; });
-  return std::make_shared<const PatchSet>(*std::move(patches));
-}
-
-absl::Status JobRunner::RunPasses(Job& job, Journal& journal, Solver& solver,
-                                  StepExecutor& executor) {
+absl::Status JobRunner::RunPasses(Job& job, Journal& journal, Solver& solver, JobSteps& steps) {
   bool is_published = false;
   double published_at_s = 0, cost_s = 0;
-  Progress charged = solver.MakeSnapshot().progress;
-  const auto on_step = [&](const Progress& progress) {
-    job.SetProgress(EncodeProgress(progress));
-    parts_.quotas->Charge(job.owner(), progress.rays - charged.rays,
-                          progress.cpu_seconds - charged.cpu_seconds);
-    charged = progress;
-    // The step after this one ends with it.
-    absl::Status left = parts_.quotas->CheckWork(job.owner());
-    if (!left.ok()) parts_.work->AbortJob(job.id(), left);
-  };
+  const auto on_step = [&](const Progress& progress) { steps.OnStep(progress); };
   absl::Status status;
   while (status.ok() && solver.stop_reason() == StopReason::kNone) {
-    status = solver.RunPass(executor, on_step);
+    status = solver.RunPass(steps.executor(), on_step);
     const double now_s = ToSeconds(parts_.clock().time_since_epoch());
     is_published = false;
     if (!status.ok() || (cost_s > 0 && now_s - published_at_s < kPublishCostFactor * cost_s)) {

@@ -189,6 +189,25 @@ TEST(CommandLine, QualityIsAWantedErrorByName) {
   EXPECT_EQ(Good({"plan", "a.glb", "--quality", "final"}).solve.max_error, 0.01);
 }
 
+TEST(CommandLine, DraftAndFinalQualityAdaptPatchesUnlessTheyAreToStayAsTheyAre) {
+  const auto patches = [](std::vector<std::string> more) {
+    std::vector<std::string> line = {"plan", "a.glb"};
+    line.insert(line.end(), more.begin(), more.end());
+    return Good(line).patch.adapt_patches;
+  };
+  EXPECT_EQ(patches({}), 0);
+  EXPECT_EQ(patches({"--quality", "preview"}), 0);
+  EXPECT_EQ(patches({"--quality", "draft"}), 50'000);
+  EXPECT_EQ(patches({"--quality", "final"}), 200'000);
+  EXPECT_EQ(patches({"--adapt", "on"}), 50'000);
+  EXPECT_EQ(patches({"--quality", "draft", "--adapt", "off"}), 0);
+  EXPECT_EQ(patches({"--quality", "draft", "--adapt-patches", "3k"}), 3000);
+  EXPECT_EQ(patches({"--quality", "draft", "--max-edge", "0"}), 0);
+  EXPECT_EQ(patches({"--quality", "draft", "--max-edge", "0.5"}), 50'000);
+  EXPECT_EQ(patches({"--quality", "draft", "--reference", "a.csv"}), 0);
+  EXPECT_EQ(patches({"--quality", "draft", "--reference", "a.csv", "--adapt", "on"}), 50'000);
+}
+
 TEST(CommandLine, OfAQualityAndAnErrorTheStrongerSourceWinsAndThenTheNumber) {
   EXPECT_EQ(Good({"plan", "a.glb", "--quality", "final", "--max-error", "0.2"}).solve.max_error,
             0.2);

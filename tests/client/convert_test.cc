@@ -11,7 +11,8 @@ TEST(Convert, OptionsComeBackAsTheyWent) {
                      .emission_unit = EmissionUnit::kWattPerM2PerSr,
                      .metres_per_unit = 0.01,
                      .blend = Blend::kOmit,
-                     .max_patches = 12345};
+                     .max_patches = 12345,
+                     .adapt_patches = 678};
   patch.lights = {.sky = "overcast",
                   .sky_illuminance_lx = 5000,
                   .sun_azimuth_deg = 200,
@@ -52,6 +53,7 @@ TEST(Convert, OptionsComeBackAsTheyWent) {
   EXPECT_EQ(patch_back.lights.sun_elevation_deg, 30);
   EXPECT_EQ(patch_back.lights.sun_illuminance_lx, 9e4);
   EXPECT_EQ(patch_back.lights.lamps, patch.lights.lamps);
+  EXPECT_EQ(patch_back.adapt_patches, 678);
   const PyramidOptions& pyramids = solve_back.shoot.pyramids;
   EXPECT_EQ(solve_back.shoot.method, Method::kPhs);
   EXPECT_EQ(pyramids.initial, 7);

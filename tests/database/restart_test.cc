@@ -52,6 +52,45 @@ TEST_F(Restart, GoesOnToTheSameBytes) {
   }
 }
 
+// Wherever in the pilots, or after them, the first coordinator ends.
+TEST_F(Restart, MeshingEndsInTheSameBytes) {
+  const auto create = [this](const std::string& id) {
+    v1::CreateSolveJobRequest request;
+    request.set_scene(CreateJob(1000).scene());
+    request.set_solve_job_id(id);
+    request.mutable_spec()->set_max_ray_count(100'000);
+    request.mutable_spec()->mutable_patch()->set_adapt_patch_count(500);
+    v1::SolveJob job;
+    grpc::ClientContext context;
+    EXPECT_TRUE(jobs()->CreateSolveJob(&context, request, &job).ok());
+    return job.name();
+  };
+  AddWorker();
+  const Watched calm = Watch(create("calm"));
+  for (int steps : {1, 16}) {
+    server::CoordinatorOptions options;
+    options.journal = server::JournalMode::kEvery;
+    StartOnFolder(options);
+    AddWorker();
+    const std::string job = create("restarted-" + std::to_string(steps));
+    grpc::ClientContext context;
+    v1::WatchSnapshotsRequest watch;
+    watch.set_parent(job);
+    auto reader = snapshots()->WatchSnapshots(&context, watch);
+    v1::WatchSnapshotsResponse news;
+    for (int seen = 0; seen < steps && reader->Read(&news) && !news.has_snapshot();) {
+      seen += news.progress().pilot() > 0;
+    }
+    context.TryCancel();
+    StartOnFolder(options);
+    AddWorker();
+    const Watched watched = Watch(job);
+    EXPECT_EQ(watched.ended.patch_set_digest().sha256(), calm.ended.patch_set_digest().sha256());
+    EXPECT_EQ(watched.payload, calm.payload);
+    EXPECT_EQ(watched.ended.meshing().pilot_ray_count(), calm.ended.meshing().pilot_ray_count());
+  }
+}
+
 TEST_F(Restart, DropsBlobsThatNobodyNeedsOnceTheyAreOld) {
   StartOnFolder();
   AddWorker();
