@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "radiosity/core/error.h"
+#include "radiosity/patch/cut_crossings.h"
 #include "radiosity/patch/patch_builder.h"
 #include "radiosity/patch/patch_material.h"
 #include "radiosity/patch/patch_warnings.h"
@@ -115,6 +116,18 @@ absl::Status PatchOptions::Validate() const {
   }
   if (adapt_patches < 0) return invalid("adapt_patches", "give a number of 0 or more");
   return lights.Validate();
+}
+
+Cuts FindCrossings(const Scene& scene, const PatchOptions& options, int64_t most_pieces) {
+  const absl::StatusOr<Survey> survey = SurveyScene(scene, options);
+  if (!survey.ok()) return {};
+  std::vector<std::array<Vec3, 3>> triangles;
+  const absl::Status placed = ForEachTriangle(scene, {survey->origin, options.metres_per_unit},
+                                              [&](const PlacedTriangle& triangle) {
+                                                triangles.push_back(triangle.corners);
+                                                return absl::OkStatus();
+                                              });
+  return placed.ok() ? Cuts{CutCrossings(triangles, most_pieces), {}} : Cuts();
 }
 
 absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& options,

@@ -41,4 +41,8 @@ struct PatchOptions {
 absl::StatusOr<PatchSet> BuildPatches(const Scene& scene, const PatchOptions& options,
                                       const Cuts& cuts = {});
 
+// Cuts with the `crossed` triangles of a scene that BuildPatches accepts, about `most_pieces` of
+// them, and no levels.
+Cuts FindCrossings(const Scene& scene, const PatchOptions& options, int64_t most_pieces);
+
 }  // namespace lambert

@@ -68,6 +68,7 @@ PatchBuilder::PatchBuilder(const std::vector<PatchMaterial>& materials,
       samples_per_edge_(SamplesPerEdge(expected_patches)) {}
 
 absl::Status PatchBuilder::Add(const PlacedTriangle& placed) {
+  const auto crossed = cuts_.crossed.find(triangles_++);
   if (materials_[placed.primitive->material + 1].omitted) {
     ++omitted_;
     return absl::OkStatus();
@@ -77,7 +78,13 @@ absl::Status PatchBuilder::Add(const PlacedTriangle& placed) {
     return absl::OkStatus();
   }
   pieces_.clear();
-  SplitLongEdges(WholePiece(placed.corners), options_.max_edge_m, &pieces_);
+  if (crossed == cuts_.crossed.end()) {
+    SplitLongEdges(WholePiece(placed.corners), options_.max_edge_m, &pieces_);
+  } else {
+    for (const SplitPiece& piece : crossed->second) {
+      SplitLongEdges(piece, options_.max_edge_m, &pieces_);
+    }
+  }
   for (const EdgeMarks& marks : cuts_.levels) HalveMarked(marks, &pieces_);
   for (const SplitPiece& piece : pieces_) {
     absl::Status status = AddPiece(placed, piece);
@@ -164,6 +171,12 @@ PatchSet PatchBuilder::Finish() {
   if (degenerate_ > 0) {
     sorted.warnings.push_back(
         {"ZERO_AREA_PATCHES", absl::StrCat(degenerate_, " triangle(s) without area left out")});
+  }
+  if (!cuts_.crossed.empty()) {
+    sorted.warnings.push_back(
+        {"CROSSING_PATCHES", absl::StrCat(cuts_.crossed.size(),
+                                          " triangle(s) that others pass through or stand on are "
+                                          "cut there")});
   }
   if (partly_cut_ > 0) {
     sorted.warnings.push_back(

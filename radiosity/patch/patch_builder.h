@@ -34,7 +34,8 @@ class PatchBuilder {
   absl::Status Add(const PlacedTriangle& placed);
 
   // Corners, materials, twins and sources of all patches in Morton order, and warnings
-  // ZERO_AREA_PATCHES, PARTLY_CUT_PATCHES and DUPLICATE_PATCHES. The builder is used up.
+  // ZERO_AREA_PATCHES, CROSSING_PATCHES, PARTLY_CUT_PATCHES and DUPLICATE_PATCHES. The builder is
+  // used up.
   PatchSet Finish();
 
   int64_t degenerate() const { return degenerate_; }  // triangles without area
@@ -56,6 +57,7 @@ class PatchBuilder {
   const int samples_per_edge_;
   std::vector<SplitPiece> pieces_;  // of the triangle in hand
   PatchSet fronts_;                 // twin: kNoPatch, or 0 where there is a back to make
+  int64_t triangles_ = 0;           // that were added
   int64_t patches_ = 0;             // backs included
   int64_t degenerate_ = 0, omitted_ = 0;
   int64_t cut_ = 0, partly_cut_ = 0;

@@ -15,6 +15,7 @@ constexpr double kShareOfError = 0.6;  // that the patches have which are split 
 constexpr int32_t kMaxPilots = 8, kPilotShare = 4 * kMaxPilots;
 constexpr int64_t kRaysOfPatch = 512;  // of a pilot: neighbours that differ by a quarter are told
 constexpr int64_t kLeastRays = 1 << 18, kMostRays = 1 << 24;
+constexpr int64_t kCutShare = 3;             // of the budget that is left: for crossings, a third
 constexpr double kRaysPerSecond = 5e6;       // of one thread (docs/benchmarks.md)
 constexpr int64_t kGrowth = 3;               // of the patches, from one pilot to the next, at most
 constexpr uint32_t kPilotName = 0x50494C4F;  // of their seeds' random numbers: "PILO"
@@ -141,10 +142,14 @@ absl::StatusOr<std::shared_ptr<const PatchSet>> AdaptMesh(const Scene& scene,
   };
   if (absl::Status status = build(); !status.ok()) return status;
   meshing->coarse_patches = patches->size();
+  const int64_t budget = std::min(options.adapt_patches, options.max_patches);
+  cuts = FindCrossings(scene, options, std::max<int64_t>(0, budget - patches->size()) / kCutShare);
+  if (!cuts.crossed.empty()) {
+    if (absl::Status status = build(); !status.ok()) return status;
+  }
   const std::shared_ptr<const PatchSet> coarse = patches;
   meshing->reason = WhyNone(*coarse, options);
   if (!meshing->reason.empty()) return coarse;
-  const int64_t budget = std::min(options.adapt_patches, options.max_patches);
   if (split.max_edge_m == 0) {
     split.max_edge_m = CoarseEdge(*coarse, budget);
     if (absl::Status status = build(); !status.ok()) return status;
