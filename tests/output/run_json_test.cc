@@ -53,6 +53,17 @@ TEST(NeverHit, AreThePatchesWithoutHitsWhereThatLeavesTheirLightOpen) {
   EXPECT_TRUE(NeverHit(record).empty());
 }
 
+TEST(EncodeRunJson, TellsWhatAdaptiveMeshingDidWhereItWasOn) {
+  RunRecord record = SomeRecord();
+  EXPECT_FALSE(Json::parse(EncodeRunJson(record, PictureFacts{})).contains("meshing"));
+  record.meshing = Meshing{.coarse_patches = 12, .pilots = 2, .reason = "enough"};
+  const Json meshing = Json::parse(EncodeRunJson(record, PictureFacts{}))["meshing"];
+  EXPECT_EQ(meshing["coarse_patches"], 12);
+  EXPECT_EQ(meshing["pilots"], 2);
+  EXPECT_EQ(meshing["reason"], "enough");
+  EXPECT_TRUE(meshing["predicted_rms_area"].is_null()) << "no pilot told any";
+}
+
 TEST(EncodeRunJson, WhatIsNotKnownIsNull) {
   RunRecord record = SomeRecord();
   record.snapshot.progress.estimated_rms_area = -1;
