@@ -16,6 +16,7 @@
 #include "lambert/v1/scene_service.grpc.pb.h"
 #include "lambert/v1/snapshot_service.grpc.pb.h"
 #include "lambert/v1/solve_job_service.grpc.pb.h"
+#include "net/solve_spec.h"
 #include "radiosity/core/digest.h"
 
 namespace lambert::client {
@@ -95,7 +96,7 @@ absl::StatusOr<PlannedScene> Client::PlanScene(const std::string& scene, const P
                                                const SolveOptions& solve) {
   v1::PlanSceneRequest request;
   request.set_scene(scene);
-  *request.mutable_spec() = ToProto(patch, solve);
+  *request.mutable_spec() = MakeSpec(patch, solve);
   v1::PlanSceneResponse response;
   absl::Status status = stubs_->caller.Call(scene, kSceneDeadline, [&](auto& context) {
     return stubs_->job->PlanScene(&context, request, &response);
@@ -112,7 +113,7 @@ absl::StatusOr<Job> Client::CreateJob(const std::string& scene, const PatchOptio
                                       const SolveOptions& solve) {
   v1::CreateSolveJobRequest request;
   request.set_scene(scene);
-  *request.mutable_spec() = ToProto(patch, solve);
+  *request.mutable_spec() = MakeSpec(patch, solve);
   request.set_request_id(NewRequestId());
   v1::SolveJob job;
   absl::Status status = stubs_->caller.Call(scene, kWriteDeadline, [&](auto& context) {

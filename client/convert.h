@@ -7,10 +7,6 @@
 
 namespace lambert::client {
 
-v1::SolveSpec ToProto(const PatchOptions& patch, const SolveOptions& solve);
-// Absent fields keep their defaults. A method that this client does not know becomes kAuto.
-void FromProto(const v1::SolveSpec& spec, PatchOptions& patch, SolveOptions& solve);
-
 Progress FromProto(const v1::Progress& progress);
 Plan FromProto(const v1::Plan& plan);
 BlobRef FromProto(const v1::Digest& digest);

@@ -2,61 +2,18 @@
 
 #include <algorithm>
 
-#include "radiosity/core/error.h"
-#include "radiosity/shoot/settings.h"
+#include "net/solve_spec.h"
 
 namespace lambert::server {
-namespace {
-
-PatchOptions DecodePatch(const v1::PatchSpec& spec, int64_t max_patches) {
-  PatchOptions options;
-  options.max_edge_m = spec.max_edge_meters();
-  options.two_sided = spec.two_sided();
-  options.emission_unit = spec.emission_unit() == v1::PatchSpec::EMISSION_UNIT_WATT
-                              ? EmissionUnit::kWattPerM2PerSr
-                              : EmissionUnit::kNit;
-  if (spec.has_meters_per_unit()) options.metres_per_unit = spec.meters_per_unit();
-  if (spec.blend() == v1::PatchSpec::BLEND_OMIT) options.blend = Blend::kOmit;
-  if (spec.has_max_patch_count()) options.max_patches = spec.max_patch_count();
-  options.max_patches = std::min(options.max_patches, max_patches);
-  options.adapt_patches = spec.adapt_patch_count();
-  options.lights.sky = spec.lights().sky();
-  options.lights.sky_illuminance_lx = spec.lights().sky_illuminance_lux();
-  options.lights.sun_azimuth_deg = spec.lights().sun_azimuth_degrees();
-  options.lights.sun_elevation_deg = spec.lights().sun_elevation_degrees();
-  options.lights.sun_illuminance_lx = spec.lights().sun_illuminance_lux();
-  for (const v1::LightSpec::Lamp& lamp : spec.lights().lamps()) {
-    options.lights.lamps.push_back({lamp.file(), lamp.node()});
-  }
-  return options;
-}
-
-}  // namespace
-
 absl::StatusOr<JobOptions> DecodeSpec(const v1::SolveSpec& spec, int64_t max_patches) {
   JobOptions options;
-  options.patch = DecodePatch(spec.patch(), max_patches);
-  SolveOptions& solve = options.solve;
-  solve.shoot.method = Method::kAuto;
-  if (!spec.shoot().method().empty()) {
-    absl::StatusOr<Method> method = ParseMethod(spec.shoot().method());
-    if (!method.ok()) return method.status();
-    solve.shoot.method = *method;
+  if (absl::Status status = ReadSpec(spec, options.patch, options.solve); !status.ok()) {
+    return status;
   }
-  for (const auto& [name, value] : spec.shoot().settings()) {
-    absl::Status applied = ApplySetting(name, value, solve.shoot);
-    if (!applied.ok()) return applied;
-  }
-  solve.shoot.region.assign(spec.shoot().region().begin(), spec.shoot().region().end());
-  if (spec.has_seed()) solve.seed = static_cast<uint64_t>(spec.seed());
-  solve.max_error = spec.max_error();
-  solve.max_rays = spec.max_ray_count();
-  solve.max_time_s = spec.max_seconds();
-  if (spec.has_unsent_tolerance()) solve.unsent_tolerance = spec.unsent_tolerance();
-  if (spec.has_max_step_count()) solve.max_steps = spec.max_step_count();
+  options.patch.max_patches = std::min(options.patch.max_patches, max_patches);
   if (absl::Status status = options.patch.Validate(); !status.ok()) return status;
-  if (absl::Status status = solve.Validate(); !status.ok()) return status;
-  if (absl::Status status = solve.shoot.Validate(); !status.ok()) return status;
+  if (absl::Status status = options.solve.Validate(); !status.ok()) return status;
+  if (absl::Status status = options.solve.shoot.Validate(); !status.ok()) return status;
   return options;
 }
 

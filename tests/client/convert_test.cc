@@ -1,6 +1,8 @@
 #include "client/convert.h"
 
 #include "gtest/gtest.h"
+#include "lambert/v1/solve_spec.pb.h"
+#include "net/solve_spec.h"
 
 namespace lambert::client {
 namespace {
@@ -40,7 +42,7 @@ TEST(Convert, OptionsComeBackAsTheyWent) {
 
   PatchOptions patch_back;
   SolveOptions solve_back;
-  FromProto(ToProto(patch, solve), patch_back, solve_back);
+  EXPECT_TRUE(ReadSpec(MakeSpec(patch, solve), patch_back, solve_back).ok());
   EXPECT_EQ(patch_back.max_edge_m, 0.25);
   EXPECT_TRUE(patch_back.two_sided);
   EXPECT_EQ(patch_back.emission_unit, EmissionUnit::kWattPerM2PerSr);
@@ -75,11 +77,24 @@ TEST(Convert, OptionsComeBackAsTheyWent) {
 TEST(Convert, AbsentFieldsKeepTheirDefaults) {
   PatchOptions patch;
   SolveOptions solve;
-  FromProto(v1::SolveSpec(), patch, solve);
+  EXPECT_TRUE(ReadSpec(v1::SolveSpec(), patch, solve).ok());
   EXPECT_EQ(patch.max_patches, PatchOptions().max_patches);
   EXPECT_EQ(solve.seed, SolveOptions().seed);
   EXPECT_EQ(solve.shoot.pyramids.depth, PyramidOptions().depth);
   EXPECT_EQ(solve.unsent_tolerance, SolveOptions().unsent_tolerance);
+}
+
+TEST(Convert, WhatIsNotKnownIsToldAndTheRestTaken) {
+  v1::SolveSpec spec;
+  spec.mutable_shoot()->set_method("of-tomorrow");
+  (*spec.mutable_shoot()->mutable_settings())["none-such"] = "1";
+  spec.set_max_error(0.25);
+  PatchOptions patch;
+  SolveOptions solve;
+  const absl::Status status = ReadSpec(spec, patch, solve);
+  EXPECT_NE(status.message().find("of-tomorrow"), std::string::npos) << status;
+  EXPECT_EQ(solve.shoot.method, Method::kAuto);
+  EXPECT_EQ(solve.max_error, 0.25);
 }
 
 TEST(Convert, AFailedJobCarriesItsErrorAndItsLastResult) {
