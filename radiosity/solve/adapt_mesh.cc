@@ -12,7 +12,7 @@ namespace lambert {
 namespace {
 
 constexpr double kShareOfError = 0.6;  // that the patches have which are split at once (Dor96)
-constexpr int32_t kMaxPilots = 8, kPilotShare = 4 * kMaxPilots;
+constexpr int32_t kMaxPilots = 16, kPilotShare = 4 * kMaxPilots;
 constexpr int64_t kRaysOfPatch = 512;  // of a pilot: neighbours that differ by a quarter are told
 constexpr int64_t kLeastRays = 1 << 18, kMostRays = 1 << 24;
 constexpr int64_t kCutShare = 3;             // of the budget that is left: for crossings, a third

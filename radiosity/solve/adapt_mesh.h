@@ -41,7 +41,7 @@ using RunPilot = absl::FunctionRef<absl::StatusOr<Solution>(
 // The scene's patches, split until the error that pilots predict is under the wanted one
 // (solve.max_error), patches are options.adapt_patches, or no difference is left beyond noise: then
 // those without any are the triangles as they were. Depends on scene, options and seed alone, as
-// long as `run` does. At most eight pilots, which together shoot at most a quarter of solve's
+// long as `run` does. At most sixteen pilots, which together shoot at most a quarter of solve's
 // budget of rays, and about a quarter of what its time allows. `meshing`: what was done. Fails as
 // BuildPatches does, and as `run` does.
 absl::StatusOr<std::shared_ptr<const PatchSet>> AdaptMesh(const Scene& scene,
