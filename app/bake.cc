@@ -204,7 +204,6 @@ absl::StatusOr<ExitCode> Bake::Finish(const client::Job& job) {
   Mark("fetch");
   record->convergence = rows_;
   record->timings_s = timings_s_;
-  record->picture_options = options_.picture;
   CountWorkers(*record);
   if (absl::Status status = AddScene(*record); !status.ok()) return status;
   if (absl::Status status = Write(job, *record); !status.ok()) return status;

@@ -101,7 +101,6 @@ absl::StatusOr<ExitCode> RunFetch(const Options& options, Interrupt& interrupt) 
   client::Job job;
   auto record = CollectLatest(client, options.job, job);
   if (!record.ok()) return record.status();
-  record->picture_options = options.picture;
   auto snapshots = client.ListSnapshots(job.name);
   if (!snapshots.ok()) return snapshots.status();
   for (const Snapshot& snapshot : *snapshots) {

@@ -131,6 +131,7 @@ absl::StatusOr<std::vector<SensorGrid>> ReadOptionalSensors(const Options& optio
 absl::Status GatherAndWrite(client::Client& client, const client::Job& job, const Options& options,
                             std::vector<SensorGrid> sensors,
                             const std::function<void(const std::string&)>& say, RunRecord& record) {
+  record.picture_options = options.picture;
   const uint64_t seed = record.plan.options.seed;
   if (options.work_plane_m > 0) {
     auto planes = WorkPlanes(*record.patches, options.work_plane_m);

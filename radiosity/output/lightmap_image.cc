@@ -7,15 +7,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "radiosity/output/png.h"
+
 namespace lambert {
 namespace {
 
 constexpr double kShareUnder = 0.999;
-
-void Append(void* context, void* data, int size) {
-  static_cast<std::string*>(context)->append(static_cast<const char*>(data),
-                                             static_cast<size_t>(size));
-}
 
 double ChooseIntensity(const TexelPage& page, const TexelValues& irradiance_lx) {
   std::vector<float> largest;
@@ -44,8 +41,8 @@ LightmapImages EncodeLightmapImages(const TexelPage& page, const TexelValues& ir
       codes.push_back(static_cast<uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0))));
     }
   }
-  stbi_write_hdr_to_func(Append, &images.rgbe, page.width, page.height, 3, values.data());
-  stbi_write_png_to_func(Append, &images.png, page.width, page.height, 3, codes.data(),
+  stbi_write_hdr_to_func(AppendBytes, &images.rgbe, page.width, page.height, 3, values.data());
+  stbi_write_png_to_func(AppendBytes, &images.png, page.width, page.height, 3, codes.data(),
                          3 * page.width);
   return images;
 }

@@ -8,6 +8,11 @@
 
 namespace lambert {
 
+void AppendBytes(void* context, void* data, int size) {
+  static_cast<std::string*>(context)->append(static_cast<const char*>(data),
+                                             static_cast<size_t>(size));
+}
+
 std::string EncodePng(int width, int height, const std::vector<Rgb>& display) {
   std::vector<uint8_t> bytes;
   bytes.reserve(3 * display.size());
@@ -15,11 +20,7 @@ std::string EncodePng(int width, int height, const std::vector<Rgb>& display) {
     for (int channel = 0; channel < 3; ++channel) bytes.push_back(SrgbByte(value[channel]));
   }
   std::string png;
-  const auto append = [](void* context, void* data, int size) {
-    static_cast<std::string*>(context)->append(static_cast<const char*>(data),
-                                               static_cast<size_t>(size));
-  };
-  stbi_write_png_to_func(append, &png, width, height, 3, bytes.data(), 3 * width);
+  stbi_write_png_to_func(AppendBytes, &png, width, height, 3, bytes.data(), 3 * width);
   return png;
 }
 

@@ -12,4 +12,7 @@ namespace lambert {
 // Requires: display.size() == width * height > 0.
 std::string EncodePng(int width, int height, const std::vector<Rgb>& display);
 
+// For writers of stb that call back: appends to the std::string `context`.
+void AppendBytes(void* context, void* data, int size);
+
 }  // namespace lambert

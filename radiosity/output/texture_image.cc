@@ -6,17 +6,13 @@
 #include <vector>
 
 #include "radiosity/output/exposure.h"
+#include "radiosity/output/png.h"
 #include "radiosity/patch/texture_mean.h"
 
 namespace lambert {
 namespace {
 
 constexpr int kJpegQuality = 95;
-
-void Append(void* context, void* data, int size) {
-  static_cast<std::string*>(context)->append(static_cast<const char*>(data),
-                                             static_cast<size_t>(size));
-}
 
 }  // namespace
 
@@ -36,10 +32,10 @@ ImageBytes EncodeTexture(const Texture& texture, double gain) {
   const int width = texture.width, height = texture.height;
   if (opaque) {
     image.mime_type = "image/jpeg";
-    stbi_write_jpg_to_func(Append, &image.bytes, width, height, 4, rgba.data(), kJpegQuality);
+    stbi_write_jpg_to_func(AppendBytes, &image.bytes, width, height, 4, rgba.data(), kJpegQuality);
   } else {
     image.mime_type = "image/png";
-    stbi_write_png_to_func(Append, &image.bytes, width, height, 4, rgba.data(), 4 * width);
+    stbi_write_png_to_func(AppendBytes, &image.bytes, width, height, 4, rgba.data(), 4 * width);
   }
   return image;
 }

@@ -119,6 +119,7 @@ absl::Status PatchOptions::Validate() const {
 }
 
 Cuts FindCrossings(const Scene& scene, const PatchOptions& options, int64_t most_pieces) {
+  if (most_pieces <= 0) return {};
   const absl::StatusOr<Survey> survey = SurveyScene(scene, options);
   if (!survey.ok()) return {};
   std::vector<std::array<Vec3, 3>> triangles;
