@@ -118,7 +118,8 @@ absl::StatusOr<client::PlannedScene> MakePlanned(const SceneBundle& bundle, cons
   if (absl::Status status = ValidateFor(*patches, options.solve); !status.ok()) {
     return status;
   }
-  client::PlannedScene planned{MakePlan(*patches, options.solve), patches->warnings};
+  const bool adapted = options.patch.adapt_patches > 0;
+  client::PlannedScene planned{MakePlan(*patches, options.solve, adapted), patches->warnings};
   AddMeshing(*patches, options.patch, planned.plan);
   return planned;
 }

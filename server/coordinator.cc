@@ -143,7 +143,7 @@ absl::StatusOr<v1::PlanSceneResponse> Coordinator::PlanScene(const Identity& who
     return status;
   }
   v1::PlanSceneResponse response;
-  Plan plan = MakePlan(*patches, options->solve);
+  Plan plan = MakePlan(*patches, options->solve, options->patch.adapt_patches > 0);
   AddMeshing(*patches, options->patch, plan);
   *response.mutable_plan() = EncodePlan(plan, request.spec());
   for (const Warning& warning : patches->warnings) {

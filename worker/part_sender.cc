@@ -120,7 +120,7 @@ absl::StatusOr<Outcome> PartSender::Offer(Link& link, const v1::MergeRange& rang
   for (const FinishedUnit* unit : units) {
     v1::PartUnit* named = header.add_units();
     named->set_unit_index(unit->lease.unit_key().unit_index());
-    named->set_ray_count(unit->result.rays);
+    named->set_ray_count(unit->ray_count);
   }
   header.mutable_part_digest()->set_sha256(Sha256Hex(bytes));
   header.mutable_part_digest()->set_size_bytes(static_cast<int64_t>(bytes.size()));

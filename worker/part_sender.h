@@ -19,6 +19,7 @@ namespace lambert::worker {
 struct FinishedUnit {
   v1::Lease lease;
   UnitResult result;
+  int64_t ray_count = 0;   // of the unit; where they go on the result has more
   double run_seconds = 0;  // wall-clock time that it took
 };
 

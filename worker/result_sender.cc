@@ -38,13 +38,13 @@ ResultSender::~ResultSender() {
   thread_.join();
 }
 
-void ResultSender::Send(const v1::Lease& lease, UnitResult result, double run_seconds) {
+void ResultSender::Send(FinishedUnit unit) {
   absl::MutexLock lock(&mutex_);
   auto has_room = [this]() ABSL_SHARED_LOCKS_REQUIRED(mutex_) {
     return items_.size() + sending_ <= static_cast<size_t>(options_.slots);
   };
   mutex_.Await(absl::Condition(&has_room));
-  items_.push_back({lease, std::move(result), run_seconds});
+  items_.push_back(std::move(unit));
 }
 
 bool ResultSender::IsTimeToSend() const {

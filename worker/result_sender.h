@@ -32,8 +32,7 @@ class ResultSender {
   ~ResultSender();
 
   // Takes over a result; blocks while too many wait. The lease leaves the book when it was sent.
-  // `run_seconds`: wall-clock time that the unit took.
-  void Send(const v1::Lease& lease, UnitResult result, double run_seconds);
+  void Send(FinishedUnit unit);
   // From now on a result is offered once only.
   void StopRetrying();
 

@@ -23,13 +23,7 @@ namespace {
 // Two jobs may take turns; more would cost memory for nothing.
 constexpr size_t kShooters = 2;
 
-struct Ran {
-  UnitResult result;
-  double run_seconds = 0;
-  int64_t rays = 0;
-};
-
-absl::StatusOr<Ran> RunUnit(ShooterCache& shooters, const v1::Lease& lease) try {
+absl::StatusOr<FinishedUnit> RunUnit(ShooterCache& shooters, const v1::Lease& lease) try {
   absl::StatusOr<std::shared_ptr<const Shooter>> shooter =
       shooters.Get({lease.patch_set_digest().sha256(), lease.patch_set_digest().size_bytes(),
                     lease.shoot_options(), lease.gather_task_digest().sha256(),
@@ -45,7 +39,7 @@ absl::StatusOr<Ran> RunUnit(ShooterCache& shooters, const v1::Lease& lease) try 
   if (lease.merge_ranges_size() > 0) {
     if (absl::Status sound = CheckLedger(*unit, *result); !sound.ok()) return sound;
   }
-  return Ran{*std::move(result), took.count(), unit->RayCount()};
+  return FinishedUnit{lease, *std::move(result), unit->RayCount(), took.count()};
 } catch (const std::exception& error) {
   return OutOfMemory(error);
 }
@@ -82,13 +76,13 @@ class Worker::Impl {
   void RunUnits() {
     while (std::optional<v1::Lease> lease = book_.Take()) {
       ++counters_.running;
-      absl::StatusOr<Ran> ran = RunUnit(shooters_, *lease);
+      absl::StatusOr<FinishedUnit> ran = RunUnit(shooters_, *lease);
       --counters_.running;
       if (ran.ok()) {
         ++counters_.units_done;
-        counters_.rays += ran->rays;
+        counters_.rays += ran->result.rays;
         counters_.run_microseconds += std::llround(ran->run_seconds * 1e6);
-        sender_.Send(*lease, std::move(ran->result), ran->run_seconds);
+        sender_.Send(*std::move(ran));
       } else {
         ++counters_.units_failed;
         options_.log({"unit failed: " + std::string(ran.status().message()), SubjectOf(*lease)});

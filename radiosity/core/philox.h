@@ -19,6 +19,7 @@ enum class RandomPurpose : uint32_t {
   kPilot = 5,          // the same, for a first look
   kClosure = 6,        // rays that look for a way out of the scene (exact)
   kRetry = 8,          // + k: the k-th retry of a rejected direction
+  kBounce = 1 << 15,   // + k: of walks of step k, where `step` is the bounce (walk)
 };
 
 struct RandomStream {

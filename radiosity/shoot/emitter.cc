@@ -16,12 +16,23 @@ struct Point8 {
   Float8 b1, b2;  // barycentric weights of corners 1 and 2
 };
 
+// Away from the edges.
+inline Point8 Inside(Point8 at) {
+  const float inner = 1 - 3 * kEdgeMargin;
+  return {kEdgeMargin + inner * at.b1, kEdgeMargin + inner * at.b2};
+}
+
 // Uniform on a triangle: b0 = 1 - sqrt(u), b2 = v sqrt(u).
 inline Point8 TrianglePoint(Float8 u, Float8 v) {
   const Float8 root = Root(u);
-  const Float8 b1 = root * (1 - v), b2 = root * v;
-  const float inner = 1 - 3 * kEdgeMargin;
-  return {kEdgeMargin + inner * b1, kEdgeMargin + inner * b2};
+  return Inside({root * (1 - v), root * v});
+}
+
+// The point of a triangle with these weights, where rounding has put it outside.
+inline Point8 Clamped(Point8 at) {
+  const Float8 b1 = at.b1 > 0 ? at.b1 : Float8{}, b2 = at.b2 > 0 ? at.b2 : Float8{};
+  const Float8 sum = b1 + b2, scale = sum > 1 ? 1 / sum : Broadcast8(1);
+  return {b1 * scale, b2 * scale};
 }
 
 struct Disk8 {
@@ -56,14 +67,18 @@ EmitterFrame8 Gather(const EmitterFrame* const frames[8]) {
 }
 
 // Each puts eight rays from `slot` on, and may write slots after the last ray.
-inline void PutOrigins(const EmitterFrame8& f, const RandomNumbers8& numbers, RayBatch& batch,
-                       int slot) {
-  const Point8 at = TrianglePoint(LoadFloat8(numbers.numbers[0]), LoadFloat8(numbers.numbers[1]));
+inline void PutOrigins(const EmitterFrame8& f, Point8 at, RayBatch& batch, int slot) {
   const Vector<Float8> origin =
       f.corner + at.b1 * f.edge1 + at.b2 * f.edge2 + Broadcast8(kOriginOffset) * f.z;
   Store(origin.x, batch.origin_x + slot);
   Store(origin.y, batch.origin_y + slot);
   Store(origin.z, batch.origin_z + slot);
+}
+
+inline void PutOrigins(const EmitterFrame8& f, const RandomNumbers8& numbers, RayBatch& batch,
+                       int slot) {
+  const Float8 u = LoadFloat8(numbers.numbers[0]), v = LoadFloat8(numbers.numbers[1]);
+  PutOrigins(f, TrianglePoint(u, v), batch, slot);
 }
 
 inline void PutDirections(const EmitterFrame8& f, Vector<Float8> local, RayBatch& batch, int slot) {
@@ -79,12 +94,16 @@ inline Vector<Float8> Lifted(Disk8 disk) {
   return {disk.x, disk.y, Root(left > 0 ? left : Float8{})};
 }
 
+inline void PutCosineDirections(const EmitterFrame8& f, const float numbers[2][8], RayBatch& batch,
+                                int slot) {
+  const Float8 u = LoadFloat8(numbers[0]), v = LoadFloat8(numbers[1]);
+  PutDirections(f, Lifted(ConcentricDisk(u, v)), batch, slot);
+}
+
 inline void PutCosineRays(const EmitterFrame8& f, const RandomNumbers8& numbers, RayBatch& batch,
                           int slot) {
   PutOrigins(f, numbers, batch, slot);
-  PutDirections(
-      f, Lifted(ConcentricDisk(LoadFloat8(numbers.numbers[2]), LoadFloat8(numbers.numbers[3]))),
-      batch, slot);
+  PutCosineDirections(f, numbers.numbers + 2, batch, slot);
 }
 
 // Fills rays begin .. end in groups of eight: `place(slot, numbers)` for each group, also for the
@@ -129,6 +148,14 @@ EmitterFrame8 Emitters::Frames(const uint32_t emitters[8]) const {
 void AppendCosineRays(const EmitterFrame8& frames, const RandomNumbers8& numbers, int count,
                       RayBatch& batch) {
   PutCosineRays(frames, numbers, batch, batch.size);
+  batch.size += count;
+}
+
+void AppendCosineRays(const EmitterFrame8& frames, const float u[8], const float v[8],
+                      const float direction[2][8], int count, RayBatch& batch) {
+  const Point8 at = Inside(Clamped({LoadFloat8(u), LoadFloat8(v)}));
+  PutOrigins(frames, at, batch, batch.size);
+  PutCosineDirections(frames, direction, batch, batch.size);
   batch.size += count;
 }
 

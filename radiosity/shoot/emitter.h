@@ -60,6 +60,11 @@ void AppendCosineRays(const EmitterFrame& frame, const RayNumbers& numbers, uint
 // By the cosine law.
 void AppendCosineRays(const EmitterFrame8& frames, const RandomNumbers8& numbers, int count,
                       RayBatch& batch);
+// The same from points of the patches instead, which are given by the weights of their corners 1
+// and 2, rounded into the patch: rays that go on from where others have hit. `direction`: the
+// numbers of their directions.
+void AppendCosineRays(const EmitterFrame8& frames, const float u[8], const float v[8],
+                      const float direction[2][8], int count, RayBatch& batch);
 // Uniform in the solid angle of a pyramid (figure 7). Writes cos theta of the ray in each slot of
 // the batch to cosine[slot] (RayBatch::kSlots values).
 void AppendSolidAngleRays(const EmitterFrame8& frames, const SphericalTriangle* const pyramids[8],

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <utility>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "radiosity/core/lanes.h"
 #include "radiosity/shoot/arrivals.h"
 #include "radiosity/shoot/refinement.h"
@@ -94,15 +96,16 @@ class Flight {
   float* weight() { return weight_; }  // by slot; room for a sampler
   // Rays that fit before the batch has to land; lands it when none fits.
   uint32_t Room();
-  // What the ray of a slot carries: r, g, b and itself, 1. A ray that carries nothing, 0 of itself,
-  // only looks: it is not counted and what it hits is not hit.
-  void SetFlux(int slot, Long4 flux) {
+  // What a slot's ray, of the visit that has begun, carries: r, g, b and itself, 1. A ray that
+  // carries nothing, 0 of itself, only looks: it is not counted and what it hits is not hit.
+  void SetFlux(int slot, Long4 flux, uint32_t ray) {
     flux_[slot] = flux;
-    if (rests_ != nullptr) visit_of_[slot] = visit_;
+    visit_of_[slot] = visit_;
+    ray_of_[slot] = ray;
   }
   // Deals flux to rays [begin, end) from `slot` on.
   void SetFlux(int slot, const RayDeal& deal, uint32_t begin, uint32_t end) {
-    for (uint32_t ray = begin; ray < end; ++ray) SetFlux(slot++, deal.Of(ray));
+    for (uint32_t ray = begin; ray < end; ++ray) SetFlux(slot++, deal.Of(ray), ray);
   }
   // Says whose ray is in a slot, and through which cell it goes.
   void SetSeer(int slot, PatchIndex emitter, int32_t cell) {
@@ -119,10 +122,19 @@ class Flight {
   }
   // Traces, deposits and empties the batch.
   virtual void Land();
+  // OK, or why rays came to no end: what has landed is of no use then.
+  const absl::Status& status() const { return status_; }
 
  protected:
+  void Fail(absl::Status status) { status_ = std::move(status); }
   bool RecordsHits() const { return hits_ != nullptr; }
-  // Land for rays that are traced. Requires: every ray of the batch has its hit.
+  void Trace() { scene_.Trace(batch_); }
+  Long4 FluxOf(int slot) const { return flux_[slot]; }
+  // Requires: the slot's ray is of a visit.
+  const Visit& VisitOf(int slot) const { return *visit_of_[slot]; }
+  uint32_t RayOf(int slot) const { return ray_of_[slot]; }
+  // Land for rays that are traced; the batch's hits stay until it has rays again. Requires: every
+  // ray of the batch has its hit.
   void LandTraced();
 
  private:
@@ -137,13 +149,15 @@ class Flight {
   const Refinement* refinement_ = nullptr;
   double unit_rays_per_m2_ = 0;
   Arrivals* rests_ = nullptr;  // null: rays rest where they arrive
+  absl::Status status_;
   const Visit* visit_ = nullptr;
   std::vector<CellHit>* hits_ = nullptr;
   RayBatch batch_;
   alignas(64) float weight_[RayBatch::kSlots];
   int32_t cell_[RayBatch::kSlots];
-  PatchIndex seer_[RayBatch::kSlots];         // emitter of a ray through a cell, or kNoPatch
-  const Visit* visit_of_[RayBatch::kSlots];   // where rays come to rest elsewhere
+  PatchIndex seer_[RayBatch::kSlots];  // emitter of a ray through a cell, or kNoPatch
+  const Visit* visit_of_[RayBatch::kSlots];
+  uint32_t ray_of_[RayBatch::kSlots];
   alignas(64) Long4 flux_[RayBatch::kSlots];  // r, g, b, 1
 };
 

@@ -141,7 +141,8 @@ void Launcher::ShootLight(const Visit& visit, RandomStream stream, Flight& fligh
     const RayDeal deal(visit.quanta, visit.ray_count);
     if (light.weighted()) {
       for (int k = slot; k < flight.batch().size; ++k) {
-        flight.SetFlux(k, Weighted(deal.Of(ray + (k - slot)), weight[k]));
+        const uint32_t shot = ray + (k - slot);
+        flight.SetFlux(k, Weighted(deal.Of(shot), weight[k]), shot);
       }
     } else {
       flight.SetFlux(slot, deal, ray, until);

@@ -35,6 +35,8 @@ class Launcher {
   // have been launched.
   absl::Status Launch(const WorkUnit& unit, Flight& flight) const;
 
+  const Emitters& emitters() const { return emitters_; }
+
  private:
   // The rays of a visit that have directions in common: rays [first, first + count).
   struct Stage {

@@ -17,7 +17,7 @@ constexpr MethodEntry kMethods[] = {
     {Method::kHs98, "hs98"},          {Method::kPhs, "phs"},
     {Method::kPhsAlpha, "phs-alpha"}, {Method::kPhsAdaptive, "phs-adaptive"},
     {Method::kPhsHier, "phs-hier"},   {Method::kImportance, "importance"},
-    {Method::kExact, "exact"}};
+    {Method::kWalk, "walk"},          {Method::kExact, "exact"}};
 
 constexpr int kMaxPyramids = 65536;  // densities of a patch: 256 KiB
 
@@ -106,7 +106,7 @@ std::vector<Method> AllMethods() {
 
 bool UsesPyramids(Method method) {
   return method != Method::kAuto && method != Method::kMcr && method != Method::kPmcr &&
-         method != Method::kExact;
+         method != Method::kWalk && method != Method::kExact;
 }
 
 int PyramidOptions::CellCount() const {

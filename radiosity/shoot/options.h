@@ -23,6 +23,7 @@ enum class Method : uint8_t {
   kPhsHier = 8,      // phs whose light arrives at elements of a hierarchy (BNN98)
   kImportance = 9,   // directional importance of a region (NNB96)
   kExact = 10,       // closed-form form factors and a linear system (docs/exact.md)
+  kWalk = 11,        // random walks: light goes on from the points that it hits (PM92)
 };
 
 // "auto", "pmcr", "phs", ... Parsing fails with FIELD_INVALID naming the choices.
@@ -30,7 +31,8 @@ const char* MethodName(Method method);
 absl::StatusOr<Method> ParseMethod(const std::string& name);
 // All but auto, in the order in which they are told about.
 std::vector<Method> AllMethods();
-// True where rays are divided over parts of the hemisphere: all but auto, mcr, pmcr and exact.
+// True where rays are divided over parts of the hemisphere: all but auto, mcr, pmcr, walk and
+// exact.
 bool UsesPyramids(Method method);
 
 // How a ray's direction is drawn inside its pyramid.

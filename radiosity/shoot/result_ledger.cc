@@ -39,15 +39,15 @@ absl::StatusOr<Total> TotalOf(const std::vector<Deposit>& deposits) {
 }  // namespace
 
 absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result) {
-  return CheckLedger(unit.RayCount(), unit.channels, unit.rays_per_m2 > 0, result);
+  return CheckLedger(unit, unit.RayCount(), result);
 }
 
-absl::Status CheckLedger(int64_t rays, int channels, bool has_rests, const UnitResult& result) {
-  if (result.channels != channels) {
+absl::Status CheckLedger(const WorkUnit& any, int64_t rays, const UnitResult& result) {
+  if (result.channels != any.channels) {
     return Unsound("it has " + std::to_string(result.channels) + " channels of " +
-                   std::to_string(channels));
+                   std::to_string(any.channels));
   }
-  if (result.rays != rays) {
+  if (any.walks ? result.rays < rays : result.rays != rays) {
     return Unsound("it reports " + std::to_string(result.rays) + " rays of " +
                    std::to_string(rays));
   }
@@ -56,15 +56,15 @@ absl::Status CheckLedger(int64_t rays, int channels, bool has_rests, const UnitR
   const auto& [arrived, hits] = *total;
   const absl::StatusOr<Total> rested = TotalOf(result.rests);
   if (!rested.ok()) return rested.status();
-  if (*rested != (has_rests ? *total : Total{})) {
+  if (*rested != (any.rays_per_m2 > 0 ? *total : Total{})) {
     return Unsound("what came to rest is not what arrived");
   }
-  if (hits > rays) return Unsound("more rays arrived than were shot");
+  if (hits > result.rays) return Unsound("more rays arrived than were shot");
   if (result.sightings.size() > static_cast<size_t>(hits)) {
     return Unsound("more was seen than rays arrived");
   }
   for (int c = 0; c < 3; ++c) {
-    if (hits == rays && result.escaped[c] != 0) {
+    if (hits == result.rays && result.escaped[c] != 0) {
       return Unsound("flux is missing although every ray arrived");
     }
     if (result.escaped[c] < 0 || arrived[c] + result.escaped[c] != result.shot[c]) {

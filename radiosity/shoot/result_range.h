@@ -16,9 +16,9 @@ UnitResult LedgerOf(const UnitResult& result);
 // True where a result tells of these patches only, in the sense of RangeOf, and has no ledger.
 bool IsRange(const UnitResult& result, PatchIndex begin, PatchIndex end);
 
-// CheckLedger (unit.h) of the sum of units that have so many rays together. `has_rests`: they are
-// of rays_per_m2 > 0.
-absl::Status CheckLedger(int64_t rays, int channels, bool has_rests, const UnitResult& result);
+// CheckLedger (unit.h) of the sum of units like `any`, of one step, that have so many rays
+// together.
+absl::Status CheckLedger(const WorkUnit& any, int64_t rays, const UnitResult& result);
 
 // Puts a range behind those before it. Requires: `into` tells of patches before `range` only.
 void AppendRange(const UnitResult& range, UnitResult& into);

@@ -13,6 +13,7 @@
 #include "radiosity/shoot/launcher.h"
 #include "radiosity/shoot/refinement.h"
 #include "radiosity/shoot/this_thread.h"
+#include "radiosity/shoot/walk_flight.h"
 #include "radiosity/trace/ray_scene.h"
 
 namespace lambert {
@@ -20,7 +21,7 @@ namespace {
 
 // Changes whenever the same unit, of shooting or of gathering (gather_units.h), would give other
 // bytes.
-constexpr char kCodeVersion[] = "shoot-8,gather-1";
+constexpr char kCodeVersion[] = "shoot-9,gather-1";
 
 class EmbreeShooter : public Shooter {
  public:
@@ -28,12 +29,14 @@ class EmbreeShooter : public Shooter {
                 std::unique_ptr<RayScene> scene, std::unique_ptr<const SurfaceTree> tree,
                 std::unique_ptr<Launcher> launcher)
       : watch_(options.method == Method::kPhsAlpha),
+        walks_(options.method == Method::kWalk),
         channels_(options.parts.without.Has(Part::kColor) ? kGrayChannels : kColorChannels),
         scene_(std::move(scene)),
         tree_(std::move(tree)),
         launcher_(std::move(launcher)),
         arrivals_(patches->size(), channels_),
         rests_(tree_ != nullptr ? tree_->place_count() : 0, channels_),
+        reflectance_(walks_ ? patches->reflectance : std::vector<Rgb>()),
         patches_(ReadsPatches(options) ? std::move(patches) : nullptr) {
     if (tree_ != nullptr) refinement_.emplace(*patches_, *scene_, *tree_, options.pyramids);
   }
@@ -42,27 +45,36 @@ class EmbreeShooter : public Shooter {
 
  private:
   const bool watch_;    // what rays see is part of the result
+  const bool walks_;    // light goes on from where it hits
   const int channels_;  // of its units
   std::unique_ptr<RayScene> scene_;
   const std::unique_ptr<const SurfaceTree> tree_;  // null: rays rest where they arrive
   std::unique_ptr<Launcher> launcher_;
   std::optional<const Refinement> refinement_;  // with a tree
   mutable ArrivalsPool arrivals_, rests_;
+  const std::vector<Rgb> reflectance_;             // of the patches, for walks
   const std::shared_ptr<const PatchSet> patches_;  // null: the launcher reads them no more
 };
 
 absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
   const DenormalsFlushed flushed;
   const double start = ThreadCpuSeconds();
-  if (unit.channels != channels_) {
-    return MakeError(absl::StatusCode::kInvalidArgument,
-                     {"FIELD_INVALID", "work unit", "its channels are not those of its job",
-                      "use programs of one version"});
+  if (unit.channels != channels_ || unit.walks != walks_) {
+    return MakeError(
+        absl::StatusCode::kInvalidArgument,
+        {"FIELD_INVALID", "work unit", "its channels, or its walks, are not those of its job",
+         "use programs of one version"});
   }
   UnitResult result;
   result.channels = channels_;
   std::unique_ptr<Arrivals> arrivals = arrivals_.Borrow();
-  auto flight = std::make_unique<Flight>(*scene_, *arrivals, result, watch_);
+  std::unique_ptr<Flight> flight;
+  if (walks_) {
+    flight = std::make_unique<WalkFlight>(*scene_, launcher_->emitters(), reflectance_, unit,
+                                          *arrivals, result);
+  } else {
+    flight = std::make_unique<Flight>(*scene_, *arrivals, result, watch_);
+  }
   std::unique_ptr<Arrivals> rests;
   if (refinement_) {
     rests = rests_.Borrow();
@@ -71,6 +83,7 @@ absl::StatusOr<UnitResult> EmbreeShooter::Run(const WorkUnit& unit) const {
   // Of a unit that fails, what has arrived is dropped with its arrivals.
   if (absl::Status status = launcher_->Launch(unit, *flight); !status.ok()) return status;
   flight->Land();
+  if (!flight->status().ok()) return flight->status();
   result.deposits = arrivals->Take();
   CombineSightings(result.sightings);
   arrivals_.Return(std::move(arrivals));

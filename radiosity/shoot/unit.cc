@@ -17,7 +17,7 @@ struct UnitHeader {
   uint64_t seed = 0;
   uint32_t pass = 0, step = 0;
   double rays_per_m2 = 0;
-  uint32_t channels = 0, reserved = 0;
+  uint32_t channels = 0, walks = 0;
 };
 static_assert(sizeof(UnitHeader) == 40);
 
@@ -176,6 +176,7 @@ std::string EncodeUnit(const WorkUnit& unit) {
   header.step = unit.step;
   header.rays_per_m2 = unit.rays_per_m2;
   header.channels = static_cast<uint32_t>(unit.channels);
+  header.walks = unit.walks ? 1 : 0;
   writer.Put(header);
   for (const Visit& v : unit.visits) {
     writer.Put(VisitBytes{v.emitter, v.ray_count, v.ray_begin, v.ray_end,
@@ -190,12 +191,14 @@ absl::StatusOr<WorkUnit> DecodeUnit(const std::string& bytes) {
   ByteReader reader(bytes);
   UnitHeader header;
   if (!reader.Get(&header) || header.magic != kUnitMagic || !IsChannelCount(header.channels) ||
-      header.reserved != 0 ||
+      header.walks > 1 ||
       header.visits > reader.remaining() / (sizeof(VisitBytes) + QuantaBytes(header.channels))) {
     return Corrupt("work unit", "the bytes are not a work unit");
   }
-  WorkUnit unit{header.seed, header.pass,        header.step,
-                {},          header.rays_per_m2, static_cast<int>(header.channels)};
+  WorkUnit unit{header.seed,        header.pass,
+                header.step,        {},
+                header.rays_per_m2, static_cast<int>(header.channels),
+                header.walks == 1};
   unit.visits.reserve(header.visits);
   for (uint32_t k = 0; k < header.visits; ++k) {
     VisitBytes v;

@@ -53,9 +53,11 @@ struct WorkUnit {
   // Rays that the step shoots over the area that may shoot (method phs-hier).
   double rays_per_m2 = 0;
   int channels = kColorChannels;
+  // Each ray of a visit is the first of a walk: light goes on from where it hits (method walk).
+  bool walks = false;
   bool operator==(const WorkUnit&) const = default;
 
-  int64_t RayCount() const;
+  int64_t RayCount() const;  // of the visits: where rays go on, those that they begin with
 };
 
 // What arrived at one patch, or came to rest at one place of a SurfaceTree.
@@ -88,7 +90,7 @@ struct UnitResult {
   std::vector<Deposit> rests;
   // In order, each once (method phs-alpha).
   std::vector<Sighting> sightings;
-  Quanta shot{};     // = sum of deposits + escaped, each channel
+  Quanta shot{};     // = sum of deposits + escaped, each channel; of walks, at each bounce
   Quanta escaped{};  // left the scene
   int64_t rays = 0;
   int channels = kColorChannels;  // of the unit
@@ -107,7 +109,8 @@ void SpreadGray(UnitResult& result);
 
 // OK if the channels are the unit's; shot = deposited + escaped in each channel, without overflow;
 // what came to rest is what was deposited where the unit asks for it (rays_per_m2 > 0), and nothing
-// did where it does not; the rays are those of `unit`, and hits + misses. Else DATA_LOSS (reason
+// did where it does not; the rays are those of `unit`, or not fewer where they go on, and hits +
+// misses. Else DATA_LOSS (reason
 // RESULT_INVALID) with both numbers. So a fault in one number of flux is noticed. What is not: flux
 // at a wrong patch or place, hits short of all rays, sightings, and faults of several numbers that
 // balance. Those show where a unit is run twice, in bytes that differ.

@@ -57,7 +57,7 @@ class Volley {
   }
   void Wait(PatchIndex emitter, uint32_t ray, Long4 flux) {
     emitters_.Prefetch(emitter);
-    flight_.SetFlux(Slot(), flux);
+    flight_.SetFlux(Slot(), flux, ray);
     groups_[waiting_ / 8].names.emitter[waiting_ % 8] = static_cast<uint32_t>(emitter);
     groups_[waiting_ / 8].names.ray[waiting_ % 8] = ray;
     ++waiting_;

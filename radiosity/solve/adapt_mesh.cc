@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "radiosity/core/philox.h"
+#include "radiosity/solve/needs.h"
 
 namespace lambert {
 namespace {
@@ -38,16 +39,16 @@ int64_t PilotRays(int64_t patches, const SolveOptions& solve) {
 }
 
 // A pilot's random numbers are those of no pass of the solution.
-SolveOptions PilotOptions(int64_t patches, const SolveOptions& solve, int32_t number) {
+SolveOptions PilotOptions(const PatchSet& patches, const SolveOptions& solve, int32_t number) {
   SolveOptions pilot;
-  pilot.shoot.method = Method::kPmcr;
+  pilot.shoot.method = IsStiff(patches) ? Method::kPmcr : Method::kWalk;
   pilot.shoot.sequence = solve.shoot.sequence;
   pilot.shoot.parts.with.Add(Part::kStdError);
   const auto bits =
       Philox({static_cast<uint32_t>(number), kPilotName, 0, 0},
              {static_cast<uint32_t>(solve.seed), static_cast<uint32_t>(solve.seed >> 32)});
   pilot.seed = uint64_t{bits[1]} << 32 | bits[0];
-  pilot.max_rays = PilotRays(patches, solve);
+  pilot.max_rays = PilotRays(patches.size(), solve);
   pilot.unsent_tolerance = kUnsentTolerance;
   return pilot;
 }
@@ -161,7 +162,7 @@ absl::StatusOr<std::shared_ptr<const PatchSet>> AdaptMesh(const Scene& scene,
   const double wanted = WantedError(solve);
   meshing->reason = Text("%d pilots are the most there are", kMaxPilots);
   while (meshing->pilots < kMaxPilots) {
-    const SolveOptions pilot = PilotOptions(patches->size(), solve, meshing->pilots);
+    const SolveOptions pilot = PilotOptions(*patches, solve, meshing->pilots);
     const absl::StatusOr<Solution> solution = run(patches, pilot, ++meshing->pilots);
     if (!solution.ok()) return solution.status();
     const MeshError error = EstimateMeshError(*patches, *solution);

@@ -24,7 +24,7 @@ constexpr double kLeastLoss =
     0x1p-23;  // 1 - rho, under which more could arrive than is planned for
 
 // The power of two of which `total` takes at most 2^bits; 0 for no flux.
-double Quantum(double total_lm, int bits = kMaxQuantaBits) {
+double Quantum(double total_lm, int bits) {
   constexpr int kLeast = -1074;  // of a double: every other one is a multiple of it
   return total_lm > 0 ? std::ldexp(1.0, std::max(std::ilogb(total_lm) + 1 - bits, kLeast)) : 0.0;
 }
@@ -40,7 +40,7 @@ Quanta InQuanta(const Rgb& flux_lm, const Rgb& quantum_lm) {
 }  // namespace
 
 StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray_lm, double offset,
-                      const std::vector<double>& weights) {
+                      const std::vector<double>& weights, int quanta_bits) {
   std::vector<Share> shares;
   Rgb total;
   double due = offset;  // a whole number of rays is, the rest is carried on
@@ -59,7 +59,7 @@ StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray
     total = total + sent;
   }
   StepPlan plan;
-  plan.quantum_lm = {Quantum(total.r), Quantum(total.g), Quantum(total.b)};
+  for (int c = 0; c < 3; ++c) plan.quantum_lm[c] = Quantum(total[c], quanta_bits);
   plan.visits.reserve(shares.size());
   for (const Share& share : shares) {
     plan.rays += share.rays;
@@ -99,7 +99,7 @@ std::vector<WorkUnit> CutIntoUnits(const StepPlan& plan, uint64_t seed, uint32_t
   for (const Visit& visit : plan.visits) {
     for (uint32_t begin = 0; begin < visit.ray_count;) {
       if (room == 0) {
-        units.push_back({seed, pass, step, {}, plan.rays_per_m2, plan.channels});
+        units.push_back({seed, pass, step, {}, plan.rays_per_m2, plan.channels, plan.walks});
         room = unit_rays;
       }
       Visit part = visit;

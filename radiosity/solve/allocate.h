@@ -25,21 +25,23 @@ struct StepPlan {
   double rays_per_m2 = 0;  // WorkUnit's, for methods that want it
   // Of its units. Gray: the visits' channels are alike, and the first travels.
   int channels = kColorChannels;
+  bool walks = false;  // WorkUnit's
 };
 
 // Emitter i expects e_i = weight_i flux_i / flux_per_ray rays (flux: the sum of its channels;
 // weight: by emitter, 1 where the list ends before it); the numbers are rounded systematically over
 // the emitters from `offset` in [0, 1), so that E[rays_i] = e_i. An emitter that expects less than
 // one ray sends its flux / e_i when it gets one: Russian roulette, no flux is lost in expectation.
-// All flux that is shot is at most 2^kMaxQuantaBits quanta and half a quantum an emitter. Requires:
-// finite flux >= 0 of a finite sum, flux_per_ray > 0, weights > 0.
+// All flux that is shot is at most 2^quanta_bits quanta and half a quantum an emitter. Requires:
+// finite flux >= 0 of a finite sum, flux_per_ray > 0, weights > 0, quanta_bits in
+// 1..kMaxQuantaBits.
 //
 // At the ends of the scale: no flux, no visit. No emitter gets more than 2^32 - 1 rays, and one
 // that expects under 2^-54 may get none in any case. What an emitter sends is rounded to the
 // nearest quantum: less than half a quantum, 2^-55 of the channel, is none. Denormal flux is a
 // whole number of quanta of 2^-1074. What is not sent is the step's residual (flux_ledger.h).
 StepPlan AllocateRays(const std::vector<UnsentFlux>& unsent, double flux_per_ray_lm, double offset,
-                      const std::vector<double>& weights = {});
+                      const std::vector<double>& weights = {}, int quanta_bits = kMaxQuantaBits);
 
 // The whole emission in one step, for a method that returns a finished solution: each emitter has
 // one visit, and `rays`, or as many as there are emitters and patches where that is more, are dealt

@@ -6,6 +6,7 @@
 
 #include "radiosity/patch/convex.h"
 #include "radiosity/patch/surface_tree.h"
+#include "radiosity/solve/needs.h"
 
 namespace lambert {
 namespace {
@@ -61,7 +62,12 @@ std::string Text(const char* format, Values... values) {
 
 }  // namespace
 
-MethodChoice ChooseMethod(const PatchSet& patches, const SolveOptions& options) {
+MethodChoice ChooseMethod(const PatchSet& patches, const SolveOptions& options, bool adapted) {
+  if (adapted && !IsStiff(patches)) {
+    return {Method::kWalk,
+            "patches are split where light varies: so that none spreads what it sends, light goes "
+            "on from where it arrives"};
+  }
   const double n = patches.size(), rays = ExpectedRays(n, options);
   if (patches.size() <= kMaxExactPatches && !IsAmbiguous(patches) && !HasSky(patches)) {
     const double seconds = kExactSecondsPerPair * n * n;

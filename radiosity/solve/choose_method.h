@@ -13,7 +13,10 @@ struct MethodChoice {
   std::string reason;  // in words with a number
 };
 
-// A function of the scene and the options alone; does not look at options.shoot.method.
-MethodChoice ChooseMethod(const PatchSet& patches, const SolveOptions& options);
+// A function of the scene and the options alone; does not look at options.shoot.method. `adapted`:
+// patches are split where light varies inside them (adapt_mesh.h), so what is wanted is the light
+// of the scene itself, not of patches that send it evenly.
+MethodChoice ChooseMethod(const PatchSet& patches, const SolveOptions& options,
+                          bool adapted = false);
 
 }  // namespace lambert

@@ -129,9 +129,11 @@ void FluxLedger::TakeBack(const std::vector<UnsentFlux>& residual) {
   Add(residual);
 }
 
-void FluxLedger::BookSolution(const StepPlan& plan, const UnitResult& result) {
-  const Rgb emitted = unsent_sum_;
-  ClearUnsent();
+void FluxLedger::BookSolution(const std::vector<UnsentFlux>& sent, const StepPlan& plan,
+                              const UnitResult& result) {
+  Rgb emitted;
+  for (const UnsentFlux& flux : sent) emitted = emitted + flux.flux_lm;
+  Add(Scaled(sent, -1));
   AddDeposits(result.deposits, plan.quantum_lm, arrived_);
   CompensatedSum absorbed[3];
   for (const Deposit& deposit : result.deposits) {

@@ -53,9 +53,10 @@ class FluxLedger {
   // Makes residual flux unsent again, signed and in order of emitters.
   void TakeBack(const std::vector<UnsentFlux>& residual);
 
-  // Books a finished solution: what was unsent was emitted, `result` holds all that arrived over
-  // all bounces, and nothing is left unsent.
-  void BookSolution(const StepPlan& plan, const UnitResult& result);
+  // Books a finished solution of the light of `sent`, all of what is unsent or a part of it:
+  // `result` holds all that arrived of it over all bounces, and nothing of it is left unsent.
+  void BookSolution(const std::vector<UnsentFlux>& sent, const StepPlan& plan,
+                    const UnitResult& result);
 
   // Flux arrived so far [lm], by patch: at it, or at elements and spread over their patches.
   std::vector<Rgb> ArrivedFlux() const;

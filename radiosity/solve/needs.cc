@@ -119,17 +119,6 @@ Need HierarchyNeed(const PatchSet& patches) {
                        : "no flat surface has two patches: every element is a patch"};
 }
 
-// Whether some part of the scene, such as one room of it, may reflect nearly all.
-bool IsStiff(const PatchSet& patches) {
-  double area = 0, bright = 0;
-  for (PatchIndex i = 0; i < patches.size(); ++i) {
-    const Rgb rho = patches.reflectance[i];
-    area += patches.area_m2[i];
-    if (std::max({rho.r, rho.g, rho.b}) >= kStiffReflectance) bright += patches.area_m2[i];
-  }
-  return bright >= kStiffShare * area;
-}
-
 Need AmbientNeed(const PatchSet& patches) {
   const double seconds = kSearchRaySeconds * static_cast<double>(LightGroupRays(patches.size()));
   if (IsStiff(patches)) {
@@ -174,6 +163,16 @@ Need StdErrorNeed(const SolveOptions& options) {
 
 }  // namespace
 
+bool IsStiff(const PatchSet& patches) {
+  double area = 0, bright = 0;
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    const Rgb rho = patches.reflectance[i];
+    area += patches.area_m2[i];
+    if (std::max({rho.r, rho.g, rho.b}) >= kStiffReflectance) bright += patches.area_m2[i];
+  }
+  return bright >= kStiffShare * area;
+}
+
 std::vector<Need> FindNeeds(const PatchSet& patches, const SolveOptions& options) {
   const ShootOptions& shoot = options.shoot;
   const bool counts = CountsPatches(shoot);
@@ -182,7 +181,8 @@ std::vector<Need> FindNeeds(const PatchSet& patches, const SolveOptions& options
   if (counts) needs.push_back(ClusterNeed(patches));
   if (shoot.method == Method::kPhsAlpha) needs.push_back(AlphaNeed(patches));
   if (shoot.method == Method::kPhsHier) needs.push_back(HierarchyNeed(patches));
-  if (shoot.method != Method::kExact) needs.push_back(AmbientNeed(patches));
+  const bool by_steps = shoot.method != Method::kExact && shoot.method != Method::kWalk;
+  if (by_steps) needs.push_back(AmbientNeed(patches));
   needs.push_back(VisibilityNeed(patches, shoot.method));
   needs.push_back(StdErrorNeed(options));
   if (CountBlack(patches) > 0) needs.push_back(BlackNeed(patches, counts));

@@ -18,6 +18,10 @@ struct Need {
   std::string only_way{};  // why it cannot be otherwise; "" where it can be forced
 };
 
+// Whether a part of the scene, such as one room of it, may reflect nearly all, so that light goes
+// on for a hundred bounces and more.
+bool IsStiff(const PatchSet& patches);
+
 // The parts that there are for options.shoot.method in this scene, whatever `options` say of them.
 // Requires: the method is not kAuto.
 std::vector<Need> FindNeeds(const PatchSet& patches, const SolveOptions& options);

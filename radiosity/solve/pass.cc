@@ -14,6 +14,10 @@ namespace {
 constexpr int32_t kMaxAmbientSteps = 400;
 // Of the emission of a scene that has stiff parts: what a whole pass takes is not known before.
 constexpr double kFirstRays = 1000;
+// Rays of a step of walks: a fifth of a minute of one core, after which there is something to see.
+constexpr int64_t kWalkStepRays = 100'000'000;
+// Bits of all flux that walks begin with, however many bounces follow.
+constexpr int kLeastWalkBits = 30;
 // Steps without any absorption or escape after which the flux is taken to have no way out.
 constexpr int64_t kStepsWithoutLoss = 10000;
 
@@ -38,6 +42,7 @@ Pass::Pass(const PassSetting& setting, int32_t number, int64_t rays, double rays
     : setting_(setting),
       number_(number),
       wanted_rays_(rays),
+      rays_per_first_ray_(rays_per_first_ray),
       ledger_(setting.patches, setting.tree) {
   if (setting.tree != nullptr) {
     emitting_m2_ = Area(setting.patches, true);
@@ -58,10 +63,11 @@ Pass::Pass(const PassSetting& setting, int32_t number, int64_t rays, double rays
 
 absl::StatusOr<bool> Pass::Step(StepExecutor& executor) {
   if (ambient_ && (steps_ >= kMaxAmbientSteps || !ambient_->Helps())) ambient_.reset();
-  const bool whole = setting_.options.shoot.method == Method::kExact;
-  const absl::StatusOr<bool> more = whole      ? SolveWhole(executor)
-                                    : ambient_ ? ShootAhead(executor)
-                                               : Shoot(executor);
+  const Method method = setting_.options.shoot.method;
+  const absl::StatusOr<bool> more = method == Method::kExact  ? SolveWhole(executor)
+                                    : method == Method::kWalk ? Walk(executor)
+                                    : ambient_                ? ShootAhead(executor)
+                                                              : Shoot(executor);
   if (more.ok() && *more && steps_ >= setting_.options.max_steps) {
     return MakeError(absl::StatusCode::kResourceExhausted,
                      {"STEPS_EXHAUSTED", "pass " + std::to_string(number_),
@@ -73,16 +79,17 @@ absl::StatusOr<bool> Pass::Step(StepExecutor& executor) {
 
 double Pass::rays_per_first_ray() const {
   if (!setting_.light_groups.empty()) return shot_lm_ / ledger_.emitted_total_lm();
-  return first_step_rays_ > 0 ? static_cast<double>(rays_) / static_cast<double>(first_step_rays_)
-                              : 0;
+  return first_rays_ > 0 ? static_cast<double>(rays_) / static_cast<double>(first_rays_) : 0;
 }
 
-StepPlan Pass::PlanStep(double flux_per_ray_lm, const std::vector<UnsentFlux>& unsent) const {
+StepPlan Pass::PlanStep(double flux_per_ray_lm, const std::vector<UnsentFlux>& unsent,
+                        int quanta_bits) const {
   const RandomStream stream{setting_.options.seed, 0, static_cast<uint32_t>(steps_),
                             static_cast<uint32_t>(number_)};
   const double offset = RandomNumbers(stream, 0, RandomPurpose::kPatchOffset)[0];
-  StepPlan plan = AllocateRays(unsent, flux_per_ray_lm, offset, setting_.weights);
+  StepPlan plan = AllocateRays(unsent, flux_per_ray_lm, offset, setting_.weights, quanta_bits);
   plan.channels = Channels();
+  plan.walks = setting_.options.shoot.method == Method::kWalk;
   if (setting_.options.shoot.method == Method::kPhsAlpha) {
     for (Visit& visit : plan.visits) {
       visit.seen =
@@ -112,7 +119,7 @@ absl::StatusOr<UnitResult> Pass::Execute(StepExecutor& executor, const StepPlan&
   rays_ += result.rays;
   for (int c = 0; c < 3; ++c) shot_lm_ += InLumen(result.shot, plan.quantum_lm)[c];
   cpu_seconds_ += result.cpu_seconds;
-  if (steps_++ == 0) first_step_rays_ = rays_;
+  if (steps_++ == 0 || plan.walks) first_rays_ += plan.rays;
   return result;
 }
 
@@ -121,9 +128,27 @@ absl::StatusOr<bool> Pass::SolveWhole(StepExecutor& executor) {
   plan.channels = Channels();
   const absl::StatusOr<UnitResult> result = Execute(executor, plan, plan.rays);
   if (!result.ok()) return result.status();
-  ledger_.BookSolution(plan, *result);
+  ledger_.BookSolution(ledger_.unsent(), plan, *result);
   unsent_fraction_ = 0;
   return false;
+}
+
+absl::StatusOr<bool> Pass::Walk(StepExecutor& executor) {
+  // All that arrives stays in the range of what one bounce may bring.
+  const int bounces = std::max(0, std::ilogb(rays_per_first_ray_) + 1);
+  const int64_t steps_left = std::max<int64_t>(1, wanted_rays_ / kWalkStepRays - steps_);
+  const std::vector<UnsentFlux> sent =
+      Scaled(ledger_.unsent(), 1 / static_cast<double>(steps_left));
+  const StepPlan plan =
+      PlanStep(flux_per_ray_lm_, sent, std::max(kLeastWalkBits, kMaxQuantaBits - bounces));
+  const double unit_rays = static_cast<double>(UnitRays(
+      std::llround(static_cast<double>(plan.rays) * rays_per_first_ray_), setting_.patches.size()));
+  const absl::StatusOr<UnitResult> result =
+      Execute(executor, plan, std::max<int64_t>(1, std::llround(unit_rays / rays_per_first_ray_)));
+  if (!result.ok()) return result.status();
+  ledger_.BookSolution(sent, plan, *result);
+  unsent_fraction_ = ledger_.unsent_total_lm() / ledger_.emitted_total_lm();
+  return steps_left > 1;
 }
 
 absl::Status Pass::ShootPart(StepExecutor& executor, int32_t group, double flux_per_ray_lm,

@@ -50,12 +50,14 @@ class Pass {
   int Channels() const {
     return setting_.options.shoot.parts.without.Has(Part::kColor) ? kGrayChannels : kColorChannels;
   }
-  StepPlan PlanStep(double flux_per_ray_lm, const std::vector<UnsentFlux>& unsent) const;
+  StepPlan PlanStep(double flux_per_ray_lm, const std::vector<UnsentFlux>& unsent,
+                    int quanta_bits = kMaxQuantaBits) const;
   absl::StatusOr<UnitResult> Execute(StepExecutor& executor, const StepPlan& plan,
                                      int64_t unit_rays);
   // Each is one step, false where the pass is over: that of a method that solves a pass in one
-  // unit; that of any other; and the same with flux shot ahead.
+  // unit; that of random walks; that of any other; and the same with flux shot ahead.
   absl::StatusOr<bool> SolveWhole(StepExecutor& executor);
+  absl::StatusOr<bool> Walk(StepExecutor& executor);
   absl::StatusOr<bool> Shoot(StepExecutor& executor);
   absl::StatusOr<bool> ShootAhead(StepExecutor& executor);
   // `group`: of Ambient.
@@ -65,12 +67,14 @@ class Pass {
   const PassSetting setting_;
   const int32_t number_;
   const int64_t wanted_rays_;
+  const double rays_per_first_ray_;  // as expected
   FluxLedger ledger_;
   std::optional<Ambient> ambient_;        // while flux is shot ahead
   double emitting_m2_ = 0, area_m2_ = 0;  // of the patches; with a tree only
   double flux_per_ray_lm_;
   int32_t steps_ = 0;
-  int64_t rays_ = 0, first_step_rays_ = 0;
+  // Of the first step of all, or those that walks begin with.
+  int64_t rays_ = 0, first_rays_ = 0;
   double cpu_seconds_ = 0, unsent_fraction_ = 1;
   double shot_lm_ = 0;  // in all, over the channels
   int64_t steps_without_loss_ = 0;

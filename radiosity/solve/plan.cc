@@ -41,12 +41,12 @@ int64_t WorkerBytes(const PatchSet& patches, const ShootOptions& shoot) {
 }
 
 // The method before its parts are decided.
-MethodChoice ResolveMethod(const PatchSet& patches, const SolveOptions& options) {
+MethodChoice ResolveMethod(const PatchSet& patches, const SolveOptions& options, bool adapted) {
   const ShootOptions& shoot = options.shoot;
   if (shoot.method != Method::kAuto) return {shoot.method, ""};
   if (shoot.parts.with.Has(Part::kPyramids)) return {Method::kPhs, "pyramids are asked for"};
   if (shoot.parts.without.Has(Part::kPyramids)) return {Method::kPmcr, "no pyramids are asked for"};
-  return ChooseMethod(patches, options);
+  return ChooseMethod(patches, options, adapted);
 }
 
 // The method without the parts that are left out of it.
@@ -80,7 +80,7 @@ absl::Status ValidateFor(const PatchSet& patches, const SolveOptions& options) {
   const Parts& asked = options.shoot.parts;
   if (asked == Parts{}) return absl::OkStatus();
   SolveOptions solve = options;
-  solve.shoot.method = ResolveMethod(patches, options).method;
+  solve.shoot.method = ResolveMethod(patches, options, /*adapted=*/false).method;
   PartSet there;
   for (const Need& need : FindNeeds(patches, solve)) {
     there.Add(need.part);
@@ -119,11 +119,11 @@ int64_t FirstPassRays(const PatchSet& patches, const SolveOptions& planned) {
   return std::max<int64_t>(1, even ? share : std::min(rays, share));
 }
 
-Plan MakePlan(const PatchSet& patches, const SolveOptions& options) {
+Plan MakePlan(const PatchSet& patches, const SolveOptions& options, bool adapted) {
   Plan plan;
   plan.options = options;
   SolveOptions& solve = plan.options;
-  const MethodChoice choice = ResolveMethod(patches, options);
+  const MethodChoice choice = ResolveMethod(patches, options, adapted);
   solve.shoot.method = choice.method;
   if (solve.max_error == 0 && solve.max_rays == 0 && solve.max_time_s == 0) {
     solve.max_error = kDefaultMaxError;

@@ -35,8 +35,8 @@ struct Plan {
 // cannot be left out.
 absl::Status ValidateFor(const PatchSet& patches, const SolveOptions& options);
 
-// Requires: ValidateFor is OK.
-Plan MakePlan(const PatchSet& patches, const SolveOptions& options);
+// Requires: ValidateFor is OK. `adapted`: ChooseMethod's.
+Plan MakePlan(const PatchSet& patches, const SolveOptions& options, bool adapted = false);
 
 // Requires: options of a plan.
 int64_t FirstPassRays(const PatchSet& patches, const SolveOptions& planned);

@@ -19,7 +19,10 @@ struct RayBatch {
   // Trace coordinates (RayScene::ToTrace); directions of any length > 0.
   alignas(64) float origin_x[kSlots], origin_y[kSlots], origin_z[kSlots];
   alignas(64) float direction_x[kSlots], direction_y[kSlots], direction_z[kSlots];
-  alignas(64) PatchIndex hit[kSlots];  // result: a patch or kEscaped
+  // Results: a patch or kEscaped, and of a patch where on it: the barycentric weights of its
+  // corners 1 and 2, as far as float32 has it.
+  alignas(64) PatchIndex hit[kSlots];
+  alignas(64) float hit_u[kSlots], hit_v[kSlots];
 
   // One more ray, rounded to float. Requires: size < kCapacity.
   void Add(Vec3 origin, Vec3 direction) {

@@ -132,9 +132,9 @@ struct RayScene::Impl {
   void Place(const PatchSet& patches);
   RTCScene Build(bool cull_backs) const;
   RTCScene CullingScene() const;
-  PatchIndex SideHit(const RTCRayHit& ray) const;
+  PictureHit SideHit(const RTCRayHit& ray) const;
   RTCRayHit CastCulled(const float origin[3], const float direction[3]) const;
-  PatchIndex FrontBehind(const RTCRayHit8& packet, int l) const;
+  PictureHit FrontBehind(const RTCRayHit8& packet, int l) const;
   void TracePacket(RayBatch& batch, int first) const;
   void OccludePacket(RayBatch& batch, int first) const;
 };
@@ -187,9 +187,13 @@ RTCScene RayScene::Impl::CullingScene() const {
   return culling;
 }
 
-// The patch whose side was hit, kNoPatch for the back of a one-sided triangle. Requires: a hit.
-PatchIndex RayScene::Impl::SideHit(const RTCRayHit& ray) const {
-  return HitsBack(ray) ? faces.back[ray.hit.primID] : faces.Front(ray.hit.primID);
+// The side that was hit and where, its distance in lengths of the direction; kNoPatch for nothing
+// and for the back of a one-sided triangle.
+PictureHit RayScene::Impl::SideHit(const RTCRayHit& ray) const {
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  // The back runs through its corners the other way: corners 1 and 2 change places.
+  if (HitsBack(ray)) return {faces.back[ray.hit.primID], ray.hit.v, ray.hit.u, ray.ray.tfar};
+  return {faces.Front(ray.hit.primID), ray.hit.u, ray.hit.v, ray.ray.tfar};
 }
 
 RTCRayHit RayScene::Impl::CastCulled(const float origin[3], const float direction[3]) const {
@@ -230,20 +234,28 @@ void RayScene::Impl::TracePacket(RayBatch& batch, int first) const {
   if (any_behind) side = behind ? Gather(faces.back.data(), face) : side;
   side = hit ? side : none;
   std::memcpy(batch.hit + first, &side, sizeof(side));
+  // A back runs through its corners the other way: corners 1 and 2 change places.
+  const Float8 u = LoadFloat8(packet.hit.u), v = LoadFloat8(packet.hit.v);
+  Store(behind ? v : u, batch.hit_u + first);
+  Store(behind ? u : v, batch.hit_v + first);
   if (!any_behind) return;
   for (int l = 0; l < kPacketWidth; ++l) {
-    if (behind[l] != 0 && side[l] == kNoPatch) batch.hit[first + l] = FrontBehind(packet, l);
+    if (behind[l] == 0 || side[l] != kNoPatch) continue;
+    const PictureHit front = FrontBehind(packet, l);
+    batch.hit[first + l] = front.patch;
+    batch.hit_u[first + l] = static_cast<float>(front.u);
+    batch.hit_v[first + l] = static_cast<float>(front.v);
   }
 }
 
 // What lane `l` hits, which has met the back of a one-sided triangle.
-PatchIndex RayScene::Impl::FrontBehind(const RTCRayHit8& packet, int l) const {
+PictureHit RayScene::Impl::FrontBehind(const RTCRayHit8& packet, int l) const {
   const float origin[3] = {packet.ray.org_x[l], packet.ray.org_y[l], packet.ray.org_z[l]};
   const float direction[3] = {packet.ray.dir_x[l], packet.ray.dir_y[l], packet.ray.dir_z[l]};
   const RTCRayHit culled = CastCulled(origin, direction);
   const Vec3 d{direction[0], direction[1], direction[2]};
   const double behind = (static_cast<double>(culled.ray.tfar) - packet.ray.tfar[l]) * Length(d);
-  return behind <= kTieDistance ? SideHit(culled) : kEscaped;
+  return behind <= kTieDistance ? SideHit(culled) : PictureHit{};
 }
 
 void RayScene::Impl::OccludePacket(RayBatch& batch, int first) const {
@@ -303,10 +315,8 @@ void RayScene::Occlude(RayBatch& batch) const {
 PictureHit RayScene::Cast(Vec3 origin, Vec3 direction) const {
   const RTCRayHit ray =
       impl_->CastCulled(ToFloats(ToTrace(origin)).data(), ToFloats(Normalized(direction)).data());
-  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  PictureHit hit{impl_->SideHit(ray), ray.hit.u, ray.hit.v, ray.ray.tfar / scale()};
-  // The back runs through its corners the other way: corners 1 and 2 change places.
-  if (HitsBack(ray)) std::swap(hit.u, hit.v);
+  PictureHit hit = impl_->SideHit(ray);
+  hit.distance_m /= scale();
   return hit;
 }
 

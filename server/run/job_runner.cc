@@ -50,7 +50,7 @@ absl::Status JobRunner::Solve(Job& job, Journal& journal) {
   if (absl::Status status = ValidateFor(**patches, options->solve); !status.ok()) {
     return status;
   }
-  Plan plan = MakePlan(**patches, options->solve);
+  Plan plan = MakePlan(**patches, options->solve, options->patch.adapt_patches > 0);
   SolveOptions solve = plan.options;
   if (const v1::SolveJob record = job.Get(); record.has_meshing()) {
     const Meshing meshing = DecodeMeshing(record.meshing());

@@ -13,7 +13,8 @@ namespace {
 // What of a result comes here while shards take the rest.
 absl::Status CheckLedgerLine(const WorkUnit& unit, const UnitResult& line) {
   bool is_sound = line.deposits.empty() && line.rests.empty() && line.sightings.empty() &&
-                  line.rays == unit.RayCount() && line.channels == unit.channels;
+                  (unit.walks ? line.rays >= unit.RayCount() : line.rays == unit.RayCount()) &&
+                  line.channels == unit.channels;
   for (int c = 0; c < 3; ++c) {
     is_sound = is_sound && line.escaped[c] >= 0 && line.escaped[c] <= line.shot[c];
   }
@@ -115,8 +116,7 @@ absl::StatusOr<UnitResult> PublishedStep::Wait() {
   if (!status_.ok()) return status_;
   if (shards_.empty()) return std::move(merged_);
   for (const auto& [first, range] : ranges_) AppendRange(range, merged_);
-  const WorkUnit& any = grains_.front();
-  const absl::Status sound = CheckLedger(rays_, any.channels, any.rays_per_m2 > 0, merged_);
+  const absl::Status sound = CheckLedger(grains_.front(), rays_, merged_);
   if (!sound.ok()) return ShardFailed("sums", std::string(sound.message()));
   return std::move(merged_);
 }

@@ -35,6 +35,11 @@ std::vector<MethodCase> EveryShootingMethod() {
           {"importance", Method::kImportance, {}}};
 }
 
+std::vector<MethodCase> EveryWalk() {
+  return {{"walk", Method::kWalk, {}},
+          {"walk that begins at Sobol points", Method::kWalk, {{"sequence", "sobol"}}}};
+}
+
 SolveOptions OptionsOf(const MethodCase& method, int64_t rays, int64_t min_rays) {
   SolveOptions options;
   options.shoot.method = method.method;

@@ -16,8 +16,10 @@ struct MethodCase {
   std::map<std::string, std::string> settings;  // as `lambert bench` writes them
 };
 
-// All that shoot; the first is mcr.
+// All that shoot from patches which send evenly what they reflect; the first is mcr.
 std::vector<MethodCase> EveryShootingMethod();
+// Those whose light goes on from where it arrives.
+std::vector<MethodCase> EveryWalk();
 
 // With a ray budget. Pyramids, where used, are for every visit of `min_rays` or more; the region of
 // `importance` is the first node.

@@ -76,7 +76,7 @@ TEST_P(SameBytesOfMethod, WithTwoWorkersAndWithOneOfThreeKilled) {
 INSTANTIATE_TEST_SUITE_P(Others, SameBytesOfMethod,
                          testing::Values(Method::kMcr, Method::kHs97, Method::kHs98, Method::kPhs,
                                          Method::kPhsAlpha, Method::kPhsAdaptive, Method::kPhsHier,
-                                         Method::kImportance),
+                                         Method::kImportance, Method::kWalk),
                          [](const auto& info) {
                            std::string name = MethodName(info.param);
                            name.erase(std::remove(name.begin(), name.end(), '-'), name.end());

@@ -54,7 +54,8 @@ TEST_P(SameBytesShardedOfMethod, WithTwoWorkers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, SameBytesShardedOfMethod,
-                         testing::Values(Method::kPhsAlpha, Method::kPhsHier, Method::kExact),
+                         testing::Values(Method::kPhsAlpha, Method::kPhsHier, Method::kExact,
+                                         Method::kWalk),
                          [](const auto& info) {
                            std::string name = MethodName(info.param);
                            name.erase(std::remove(name.begin(), name.end(), '-'), name.end());

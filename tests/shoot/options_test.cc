@@ -106,6 +106,7 @@ TEST(UsesPyramids, IsTrueWhereRaysAreDivided) {
   EXPECT_FALSE(UsesPyramids(Method::kMcr));
   EXPECT_FALSE(UsesPyramids(Method::kPmcr));
   EXPECT_FALSE(UsesPyramids(Method::kExact));
+  EXPECT_FALSE(UsesPyramids(Method::kWalk));
   EXPECT_TRUE(UsesPyramids(Method::kHs97));
   EXPECT_TRUE(UsesPyramids(Method::kPhsAdaptive));
 }

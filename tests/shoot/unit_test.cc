@@ -52,6 +52,16 @@ TEST(CheckLedger, AcceptsAResultThatBalances) {
   EXPECT_TRUE(CheckLedger(booked.unit, booked.result).ok());
 }
 
+TEST(CheckLedger, WalksHaveNoFewerRaysThanTheyBeginWith) {
+  Booked booked = Balanced();
+  booked.result.rays = 12;
+  EXPECT_FALSE(CheckLedger(booked.unit, booked.result).ok());
+  booked.unit.walks = true;
+  EXPECT_TRUE(CheckLedger(booked.unit, booked.result).ok());
+  booked.result.rays = 7;
+  EXPECT_FALSE(CheckLedger(booked.unit, booked.result).ok());
+}
+
 // What the ledger cannot tell, as unit.h says: only a second run of the unit can.
 TEST(CheckLedger, DoesNotNoticeWhatTheHeaderNames) {
   Booked honest = Balanced();

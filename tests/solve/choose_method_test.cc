@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "radiosity/solve/needs.h"
+#include "radiosity/solve/plan.h"
 #include "tests/support/scenes.h"
 
 namespace lambert {
@@ -31,6 +33,18 @@ TEST(ChooseMethod, ClosedFormsWhereNothingHides) {
   EXPECT_NE(Chosen(cube, hurry), Method::kExact) << "192 patches take longer";
   hurry.max_time_s = 1;
   EXPECT_EQ(Chosen(cube, hurry), Method::kExact);
+}
+
+TEST(ChooseMethod, WalksWherePatchesAreSplitForTheLightAndSomeOfItIsLost) {
+  const PatchSet room = PatchesOf(MakeOffice(1)), stiff = PatchesOf(MakeFurnace(0.999, 1, 24));
+  EXPECT_FALSE(IsStiff(room));
+  EXPECT_TRUE(IsStiff(stiff));
+  EXPECT_EQ(ChooseMethod(room, {}, /*adapted=*/true).method, Method::kWalk);
+  EXPECT_NE(ChooseMethod(stiff, {}, /*adapted=*/true).method, Method::kWalk);
+  SolveOptions open;
+  open.shoot.method = Method::kAuto;
+  EXPECT_EQ(MakePlan(room, open, /*adapted=*/true).options.shoot.method, Method::kWalk);
+  EXPECT_NE(Chosen(room, {}), Method::kWalk);
 }
 
 TEST(ChooseMethod, ClosedFormsWhereTheyCostLessThanTheNoise) {

@@ -38,6 +38,37 @@ TEST(Cast, BarycentricWeightsAndDistanceGiveThePoint) {
   EXPECT_GT(backs, 5);
 }
 
+// The weights of a traced ray are those of the same ray that is cast.
+TEST(Cast, AgreesWithTraceOnWhereAPatchIsHit) {
+  Scene scene = MakeOffice(1);
+  for (size_t k = 0; k < scene.materials.size(); k += 2) scene.materials[k].two_sided = true;
+  const PatchSet patches = PatchesOf(scene);
+  const auto rays = *RayScene::Create(patches);
+  TestRandom random(2);
+  RayBatch batch;
+  std::vector<PictureHit> expected;
+  while (batch.size < RayBatch::kCapacity) {
+    const Vec3 eye =
+        Vec3{random.Uniform(0.1, 5.9), random.Uniform(0.1, 2.9), random.Uniform(0.1, 7.9)} -
+        patches.origin;
+    const Vec3 direction = random.Direction();
+    batch.Add(rays->ToTrace(eye), direction);
+    expected.push_back(rays->Cast(eye, direction));
+  }
+  rays->Trace(batch);
+  int alike = 0, backs = 0;
+  for (int k = 0; k < batch.size; ++k) {
+    // A traced ray ends at the back of a one-sided patch; one that is cast goes through.
+    if (batch.hit[k] != expected[k].patch) continue;
+    ++alike;
+    backs += patches.is_back[batch.hit[k]];
+    EXPECT_NEAR(batch.hit_u[k], expected[k].u, 1e-3) << k;
+    EXPECT_NEAR(batch.hit_v[k], expected[k].v, 1e-3) << k;
+  }
+  EXPECT_GT(alike, RayBatch::kCapacity / 2);
+  EXPECT_GT(backs, 0);
+}
+
 TEST(Cast, SeesTheNearestFrontAndThroughBacks) {
   const Paint gray{{0.5, 0.5, 0.5}, {1, 1, 1}};
   const PatchSet patches = PatchesOf(SceneMaker()
