@@ -233,7 +233,7 @@ class Simulation {
       if (!held.revoked) {
         const UnitRef unit = held.unit;
         const UnitState& done = state_.steps.at("job").units[static_cast<size_t>(unit.unit)];
-        left_ -= static_cast<size_t>(done.grain_count);
+        left_ -= static_cast<size_t>(done.grains.count);
         ++units_;
         FinishUnit(state_, unit, "", "", c_.ray * static_cast<double>(done.rays),
                    ToSeconds(At(now_) - held.granted));
@@ -262,7 +262,8 @@ class Simulation {
     state_.revoked.clear();
     std::map<int, bool> told;
     for (const Grant& grant : grants) {
-      const int unit = grant.new_grains > 0 ? CutUnit(state_, "job", grant.new_grains) : grant.unit;
+      const int unit =
+          grant.new_grains.count > 0 ? CutUnit(state_, "job", grant.new_grains) : grant.unit;
       const std::string lease = std::to_string(next_lease_++);
       AddLease(state_, {"job", unit}, grant.session, lease, At(now_));
       const int node = by_name_.at(grant.session);

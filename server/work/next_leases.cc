@@ -25,18 +25,17 @@ class OpenWork {
  public:
   OpenWork(const WorkState& state, const WorkOptions& options) : state_(state), options_(options) {
     for (const auto& [job, step] : state.steps) {
-      const int grains = static_cast<int>(step.grain_rays.size()) - step.next_grain;
-      if (step.open.empty() && grains == 0) continue;
+      if (step.open.empty() && step.uncut.count() == 0) continue;
       const int most = MostSessions(step, state.roster, options);
       for_all_ = for_all_ || most >= state.roster.sessions;
       queues_.push_back({&job,
                          &step,
                          step.open,
-                         step.next_grain,
+                         step.uncut,
                          static_cast<int>(step.leased.size()),
                          static_cast<size_t>(most),
                          {}});
-      count_ += static_cast<int>(step.open.size()) + grains;
+      count_ += static_cast<int>(step.open.size()) + step.uncut.count();
     }
   }
   // Grains that are left, and units that opened again.
@@ -60,7 +59,7 @@ class OpenWork {
     for (Queue& queue : queues_) {
       if (best != nullptr && queue.leased >= best->leased) continue;
       if (!queue.MayJoin(session)) continue;
-      if (queue.GrainsLeft() > 0 || FirstOpen(queue, session) < queue.open.size()) best = &queue;
+      if (queue.uncut.count() > 0 || FirstOpen(queue, session) < queue.open.size()) best = &queue;
     }
     if (best == nullptr) return std::nullopt;
     ++best->leased;
@@ -70,11 +69,12 @@ class OpenWork {
       const int unit = best->open[open];
       best->open.erase(best->open.begin() + static_cast<ptrdiff_t>(open));
       --count_;
-      return Grant{session, *best->job, unit, 0};
+      return Grant{session, *best->job, unit, {}};
     }
-    const int grains = NewUnitSize(*best);
-    best->next_grain += grains;
-    count_ -= grains;
+    const GrainRange grains =
+        NewUnit(*best, best->uncut.From(HomeOf(state_, *best->step, session)));
+    best->uncut.Take(grains);
+    count_ -= grains.count;
     return Grant{session, *best->job, -1, grains};
   }
 
@@ -83,11 +83,10 @@ class OpenWork {
     const std::string* job;
     const StepState* step;
     std::deque<int> open;
-    int next_grain;
+    GrainRuns uncut;
     int leased;
     size_t most_sessions;
     std::set<std::string> joined;  // sessions that get some now, and held none before
-    int GrainsLeft() const { return static_cast<int>(step->grain_rays.size()) - next_grain; }
     bool MayJoin(const std::string& session) const {
       return step->holders.count(session) > 0 || joined.count(session) > 0 ||
              step->holders.size() + joined.size() < most_sessions;
@@ -105,19 +104,20 @@ class OpenWork {
       return !other.second.draining && unit.failed_on.count(other.first) == 0;
     });
   }
-  int NewUnitSize(const Queue& queue) const {
+  // The first of these grains, as many as make a unit.
+  GrainRange NewUnit(const Queue& queue, const GrainRange& free) const {
     const std::vector<int64_t>& rays = queue.step->grain_rays;
     const Roster& roster = state_.roster;
     const auto sessions = std::min<size_t>(queue.most_sessions, roster.sessions);
     const auto slots = static_cast<int>(sessions * roster.slots / std::max(roster.sessions, 1));
-    const int wanted = std::max(1, queue.GrainsLeft() / (2 * std::max(slots, 1)));
+    const int wanted = std::clamp(queue.uncut.count() / (2 * std::max(slots, 1)), 1, free.count);
     const int64_t most = std::max(options_.max_unit_rays, queue.step->sums.patches);
-    int64_t sum = rays[queue.next_grain];
+    int64_t sum = rays[free.first];
     int count = 1;
-    while (count < wanted && sum + rays[queue.next_grain + count] <= most) {
-      sum += rays[queue.next_grain + count++];
+    while (count < wanted && sum + rays[free.first + count] <= most) {
+      sum += rays[free.first + count++];
     }
-    return count;
+    return {free.first, count};
   }
 
   const WorkState& state_;
@@ -243,7 +243,7 @@ std::vector<Grant> RepeatLate(const WorkState& state, TimePoint now, const WorkO
   for (const auto& [granted, unit] : LateUnits(state, now, options)) {
     for (Taker& taker : takers) {
       if (taker.free <= 0 || Holds(state, *taker.session, unit)) continue;
-      grants.push_back({*taker.name, unit.job, unit.unit, 0});
+      grants.push_back({*taker.name, unit.job, unit.unit, {}});
       --taker.free;
       break;
     }

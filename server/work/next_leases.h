@@ -11,8 +11,8 @@ namespace lambert::server {
 struct Grant {
   std::string session;
   std::string job;
-  int unit = -1;       // of the job's step; -1: a new one
-  int new_grains = 0;  // of a new unit
+  int unit = -1;               // of the job's step; -1: a new one
+  GrainRange new_grains = {};  // of a new unit
   bool operator==(const Grant&) const = default;
 };
 
@@ -20,10 +20,11 @@ struct Grant {
 // get any.
 //  1. Open work fills free slots, the emptiest worker first, jobs in turn. A new unit takes half of
 //     its share of the grains that are left, so units get smaller towards the end of a step and all
-//     workers end together (guided self-scheduling). A unit that failed on a worker goes to another
-//     one, as long as there is any on which it did not; and that worker gets one unit at a time
-//     until one succeeds. A step of few rays stays with the few workers that it is worth
-//     (MostSessions).
+//     workers end together (guided self-scheduling); it begins where its worker is at home
+//     (HomeOf), or beyond, where that was taken: nobody waits for it. A unit that failed on a
+//     worker goes to another one, as long as there is any on which it did not; and that worker gets
+//     one unit at a time until one succeeds. A step of few rays stays with the few workers that it
+//     is worth (MostSessions).
 //  2. What is still open is granted ahead, up to `most_leases` of a session, so that the next unit
 //     lies there when one ends; but never a unit for which somebody else has a free slot.
 // Looks at who might get something, not at every session.

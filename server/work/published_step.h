@@ -9,6 +9,7 @@
 #include "absl/status/statusor.h"
 #include "absl/synchronization/mutex.h"
 #include "radiosity/shoot/unit.h"
+#include "server/work/grain_runs.h"
 
 namespace lambert::server {
 
@@ -24,11 +25,6 @@ struct WorkSetup {
   // numbers of the result.
   std::string gather_task_sha256 = {};
   int64_t gather_task_bytes = 0;
-};
-
-// Some grains, one after the other.
-struct GrainRange {
-  int first = 0, count = 0;
 };
 
 // Patches whose sums a merge shard takes.

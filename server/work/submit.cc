@@ -84,8 +84,7 @@ absl::StatusOr<WorkTable::Claim> WorkTable::Examine(const Submission& submission
           {"FIELD_INVALID", "unit_index", "there is no such unit, or it is there twice",
            "use programs of one version"});
     }
-    const UnitState& unit = units[submitted.unit];
-    claim.grains.push_back({unit.first_grain, unit.grain_count});
+    claim.grains.push_back(units[submitted.unit].grains);
   }
   const Known known = Compare(submission);
   claim.is_new = known.done == 0 || (submission.units.size() == 1 && known.equal == 0);

@@ -9,8 +9,11 @@ namespace {
 constexpr double kUnknownSecondsPerRay = 1e-6;
 
 int64_t QueuedRays(const StepState& step) {
-  int64_t rays =
-      std::accumulate(step.grain_rays.begin() + step.next_grain, step.grain_rays.end(), int64_t{0});
+  int64_t rays = 0;
+  for (const GrainRange& run : step.uncut.runs()) {
+    const auto first = step.grain_rays.begin() + run.first;
+    rays = std::accumulate(first, first + run.count, rays);
+  }
   for (const int unit : step.open) rays += step.units[unit].rays;
   return rays;
 }

@@ -65,11 +65,17 @@ void AddSession(WorkState& state, const std::string& name, const std::string& wo
   session.worker_id = worker_id;
   session.slots = slots;
   session.most_leases = slots * options.units_per_slot;
+  session.seat = state.seats.size();
+  state.seats.push_back(name);
   Count(state, name, session, 1);
 }
 
 void RemoveSession(WorkState& state, const std::string& name) {
   Count(state, name, state.sessions.at(name), -1);
+  const size_t seat = state.sessions.at(name).seat;
+  state.seats[seat] = state.seats.back();
+  state.sessions.at(state.seats[seat]).seat = seat;
+  state.seats.pop_back();
   state.sessions.erase(name);
 }
 
@@ -87,15 +93,22 @@ void AddStep(WorkState& state, const std::string& job, int64_t number,
   step.number = number;
   step.grain_rays = grain_rays;
   step.rays = std::accumulate(grain_rays.begin(), grain_rays.end(), int64_t{0});
+  step.uncut = GrainRuns(static_cast<int>(grain_rays.size()));
   step.sums = sums;
 }
 
-int CutUnit(WorkState& state, const std::string& job, int grain_count) {
+int HomeOf(const WorkState& state, const StepState& step, const std::string& session) {
+  return static_cast<int>(state.sessions.at(session).seat * step.grain_rays.size() /
+                          state.seats.size());
+}
+
+int CutUnit(WorkState& state, const std::string& job, const GrainRange& grains) {
   StepState& step = state.steps.at(job);
   UnitState& unit = step.units.emplace_back();
-  unit.first_grain = step.next_grain;
-  unit.grain_count = grain_count;
-  for (int i = 0; i < grain_count; ++i) unit.rays += step.grain_rays[step.next_grain++];
+  unit.grains = grains;
+  const auto first = step.grain_rays.begin() + grains.first;
+  unit.rays = std::accumulate(first, first + grains.count, int64_t{0});
+  step.uncut.Take(grains);
   return static_cast<int>(step.units.size()) - 1;
 }
 

@@ -13,6 +13,7 @@
 #include "radiosity/core/log.h"
 #include "radiosity/patch/patch_set.h"
 #include "server/base/clock.h"
+#include "server/work/grain_runs.h"
 
 namespace lambert::server {
 
@@ -67,7 +68,7 @@ struct LeaseState {
 };
 
 struct UnitState {
-  int first_grain = 0, grain_count = 0;
+  GrainRange grains;
   bool done = false;
   int attempts = 0;                 // leases that ended without a result
   std::set<std::string> failed_on;  // sessions
@@ -88,7 +89,7 @@ struct StepState {
   std::vector<int64_t> grain_rays;  // by grain
   int64_t rays = 0;                 // of all
   SumSize sums;
-  int next_grain = 0;            // grains from here on are in no unit yet
+  GrainRuns uncut;               // grains that are in no unit yet
   std::vector<UnitState> units;  // that were lent so far
   std::deque<int> open;          // units that are neither done nor leased any more, next first
   std::set<int> leased;          // units that are leased and not done
@@ -99,6 +100,7 @@ struct SessionState {
   std::string worker_id;
   int slots = 1;
   int most_leases = 2;  // that it may hold, > 0
+  size_t seat = 0;      // in WorkState::seats
   bool draining = false;
   bool waiting = false;          // a sync is held: leases can be granted now
   TimePoint last_seen;           // when its last sync began
@@ -135,6 +137,7 @@ struct WorkState {
   std::map<std::string, LeaseState> leases;      // by name
   std::map<std::string, Pace> paces;             // by job id, where units have ended
   Roster roster;                                 // of the sessions
+  std::vector<std::string> seats;                // all sessions, in an order that changes little
   std::vector<std::string> revoked;              // leases whose workers were not told of it yet
 };
 
@@ -151,9 +154,14 @@ void SetDraining(WorkState& state, const std::string& name, bool draining);
 void AddStep(WorkState& state, const std::string& job, int64_t number,
              const std::vector<int64_t>& grain_rays, const SumSize& sums = {});
 
-// Makes the next `grain_count` grains of a job's step a unit and returns its number. Requires: so
-// many are left.
-int CutUnit(WorkState& state, const std::string& job, int grain_count);
+// Where among a step's grains a session begins: each has a stretch of its own, of equal length, and
+// the same one in every step while nobody comes or goes. Grains follow the order of the patches, so
+// it mostly shoots from patches that it knows: densities are kept where they were computed.
+// Requires: the session is there.
+int HomeOf(const WorkState& state, const StepState& step, const std::string& session);
+
+// Makes grains of a job's step a unit and returns its number. Requires: they are in none.
+int CutUnit(WorkState& state, const std::string& job, const GrainRange& grains);
 
 // Takes a job's step away; its leases are revoked. Does nothing where there is none.
 void RemoveStep(WorkState& state, const std::string& job);

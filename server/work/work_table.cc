@@ -230,14 +230,13 @@ void WorkTable::Lend(const std::vector<Grant>& grants, Calls& calls) {
   state_.revoked.clear();
   for (const Grant& grant : grants) {
     const std::string lease = grant.session + "/leases/" + std::to_string(next_name_++);
-    const int unit =
-        grant.new_grains > 0 ? CutUnit(state_, grant.job, grant.new_grains) : grant.unit;
+    const bool is_new = grant.new_grains.count > 0;
+    const int unit = is_new ? CutUnit(state_, grant.job, grant.new_grains) : grant.unit;
     ++counters_.leases_granted;
-    if (grant.new_grains == 0) ++counters_.leases_repeated;
+    if (!is_new) ++counters_.leases_repeated;
     AddLease(state_, {grant.job, unit}, grant.session, lease, now);
     const UnitState& lent = state_.steps.at(grant.job).units[unit];
-    news[grant.session].push_back(
-        {lease, steps_.at(grant.job), unit, {lent.first_grain, lent.grain_count}});
+    news[grant.session].push_back({lease, steps_.at(grant.job), unit, lent.grains});
   }
   for (auto& [session, leases] : news) {
     if (exchanges_[session].held != nullptr) Answer(session, std::move(leases), calls);

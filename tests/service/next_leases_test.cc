@@ -21,6 +21,11 @@ void AddUnits(WorkState& state, const std::string& job, int count) {
   AddStep(state, job, 1, std::vector<int64_t>(count, kRays));
 }
 
+// Makes the first grains that are left a unit.
+int CutNext(WorkState& state, int count) {
+  return CutUnit(state, "job", {state.steps.at("job").uncut.From(0).first, count});
+}
+
 int GrantsOf(const std::vector<Grant>& grants, const std::string& session) {
   return static_cast<int>(std::count_if(
       grants.begin(), grants.end(), [&](const Grant& grant) { return grant.session == session; }));
@@ -60,7 +65,7 @@ TEST(NextLeases, NoUnitIsGrantedTwiceAtOnce) {
   AddWaiting(state, "b", 3);
   AddUnits(state, "job", 8);
   int grains = 0;
-  for (const Grant& grant : NextLeases(state, kNow, {})) grains += grant.new_grains;
+  for (const Grant& grant : NextLeases(state, kNow, {})) grains += grant.new_grains.count;
   EXPECT_EQ(grains, 8);
 }
 
@@ -70,7 +75,7 @@ TEST(NextLeases, UnitsShrinkTowardsTheEndOfAStep) {
   AddWaiting(state, "b", 1);
   AddUnits(state, "job", 32);
   std::vector<int> sizes;
-  for (const Grant& grant : NextLeases(state, kNow, {})) sizes.push_back(grant.new_grains);
+  for (const Grant& grant : NextLeases(state, kNow, {})) sizes.push_back(grant.new_grains.count);
   EXPECT_EQ(sizes, (std::vector<int>{8, 6, 4, 3}));
 }
 
@@ -80,7 +85,7 @@ TEST(NextLeases, GrainsThatAreLargeEnoughAreLentOneByOne) {
   WorkOptions options;
   options.max_unit_rays = 2 * kRays - 1;
   AddUnits(state, "job", 32);
-  for (const Grant& grant : NextLeases(state, kNow, options)) EXPECT_EQ(grant.new_grains, 1);
+  for (const Grant& grant : NextLeases(state, kNow, options)) EXPECT_EQ(grant.new_grains.count, 1);
 }
 
 TEST(NextLeases, NothingIsGrantedAheadWhileAnotherWorkerWithAFreeSlotIsOnItsWay) {
@@ -182,7 +187,7 @@ TEST(Roster, FollowsEveryChange) {
   EXPECT_EQ(state.roster.takers, (std::set<std::string>{"a", "b"}));
   AddUnits(state, "job", 4);
   for (const char* lease : {"1", "2"}) {
-    AddLease(state, {"job", CutUnit(state, "job", 1)}, "b", lease, kNow);
+    AddLease(state, {"job", CutNext(state, 1)}, "b", lease, kNow);
   }
   EXPECT_EQ(state.roster.takers, (std::set<std::string>{"a"}));  // b holds all that it may
   SetWaiting(state, "a", false);
@@ -206,7 +211,7 @@ class FailedUnit : public testing::Test {
     AddWaiting(state_, "strong", 1);
     SetWaiting(state_, "strong", false);
     AddUnits(state_, "job", 1);
-    CutUnit(state_, "job", 1);
+    CutNext(state_, 1);
     AddLease(state_, {"job", 0}, "weak", "lease", kNow);
     LetRest(state_, "lease", kNow, options_);
     RemoveLease(state_, "lease", /*failed=*/true);
@@ -221,12 +226,12 @@ class FailedUnit : public testing::Test {
 TEST_F(FailedUnit, WaitsForAWorkerOnWhichItDidNotFail) {
   EXPECT_TRUE(GrantsAfterRest().empty());
   SetWaiting(state_, "strong", true);
-  EXPECT_EQ(GrantsAfterRest(), (std::vector<Grant>{{"strong", "job", 0, 0}}));
+  EXPECT_EQ(GrantsAfterRest(), (std::vector<Grant>{{"strong", "job", 0, {}}}));
 }
 
 TEST_F(FailedUnit, IsTriedAgainWhereItFailedWhenThereIsNobodyElse) {
   SetDraining(state_, "strong", true);
-  EXPECT_EQ(GrantsAfterRest(), (std::vector<Grant>{{"weak", "job", 0, 0}}));
+  EXPECT_EQ(GrantsAfterRest(), (std::vector<Grant>{{"weak", "job", 0, {}}}));
 }
 
 TEST_F(FailedUnit, LeavesItsWorkerARestThatGrowsAndOneUnitAtATime) {
@@ -245,7 +250,7 @@ TEST(Pace, IsTheMedianAndDeafToOneFrozenWorker) {
   WorkState state;
   AddUnits(state, "job", 3);
   for (double seconds : {1.0, 1000.0, 2.0}) {
-    FinishUnit(state, {"job", CutUnit(state, "job", 1)}, "digest", "w", seconds, seconds);
+    FinishUnit(state, {"job", CutNext(state, 1)}, "digest", "w", seconds, seconds);
   }
   EXPECT_DOUBLE_EQ(state.paces["job"].seconds_per_ray.median, 2.0 / kRays);
 }
@@ -257,7 +262,7 @@ class LateUnit : public testing::Test {
     AddWaiting(state_, "idle", 1);
     SetWaiting(state_, "frozen", false);
     AddUnits(state_, "job", 1);
-    CutUnit(state_, "job", 1);
+    CutNext(state_, 1);
     AddLease(state_, {"job", 0}, "frozen", "frozen/leases/1", kNow);
     state_.paces["job"].seconds_per_ray.median = 1e-3;  // the unit should take a second
   }
@@ -267,7 +272,7 @@ class LateUnit : public testing::Test {
 TEST_F(LateUnit, IsRepeatedElsewhereAfterTwiceItsTime) {
   EXPECT_TRUE(RepeatLate(state_, kNow + std::chrono::milliseconds(1999), {}).empty());
   EXPECT_EQ(RepeatLate(state_, kNow + std::chrono::milliseconds(2000), {}),
-            (std::vector<Grant>{{"idle", "job", 0, 0}}));
+            (std::vector<Grant>{{"idle", "job", 0, {}}}));
 }
 
 TEST_F(LateUnit, HasTheTimeThatOthersWaitedBesides) {
@@ -300,7 +305,7 @@ TEST(WorkState, AUnitWhoseOnlyLeaseEndsOpensAgainAsTheNext) {
   WorkState state;
   AddWaiting(state, "a", 1);
   AddUnits(state, "job", 3);
-  for (int i = 0; i < 3; ++i) CutUnit(state, "job", 1);
+  for (int i = 0; i < 3; ++i) CutNext(state, 1);
   AddLease(state, {"job", 2}, "a", "lease", kNow);
   RemoveLease(state, "lease", /*failed=*/true);
   EXPECT_EQ(state.steps["job"].open.front(), 2);
@@ -312,7 +317,7 @@ TEST(WorkState, ARevokedLeaseFillsItsSlotUntilItIsRemoved) {
   WorkState state;
   AddWaiting(state, "a", 1);
   AddUnits(state, "job", 1);
-  CutUnit(state, "job", 1);
+  CutNext(state, 1);
   AddLease(state, {"job", 0}, "a", "lease", kNow);
   RemoveStep(state, "job");
   EXPECT_EQ(state.sessions["a"].FreeSlots(), 0);
