@@ -27,6 +27,8 @@ struct Constants {
   double rays_per_sum = 0.45;      // WorkOptions; next to nothing: all nodes take part in all steps
   double combine = 1;              // 1: units that ended travel as one result; 0: one by one
   double deposit_bytes = 32;       // of a patch that was hit, in a result
+  double evenness = 0.3;  // of hits: their number on a patch has a gamma distribution of this shape
+  double by_step = 0;     // 1: a line a step instead of one of the pass
 };
 
 // By their names on the command line.
@@ -51,6 +53,8 @@ inline const std::map<std::string, double Constants::*>& Keys() {
       {"rays_per_sum", &Constants::rays_per_sum},
       {"combine", &Constants::combine},
       {"deposit_bytes", &Constants::deposit_bytes},
+      {"evenness", &Constants::evenness},
+      {"by_step", &Constants::by_step},
   };
   return keys;
 }

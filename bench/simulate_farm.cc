@@ -67,13 +67,18 @@ class Simulation {
     events_.push({kTick, Kind::kTick, 0, ""});
     for (double rays = c_.rays_per_patch * patches_ * (1 - c_.reflected); rays >= 1;
          rays *= c_.reflected) {
+      const double began = now_, bytes = bytes_;
       RunStep(rays);
       ++steps_;
       rays_ += rays;
+      if (c_.by_step > 0) {
+        std::printf("%d,%.0f,%.4g,%.3g\n", steps_ - 1, rays, now_ - began, bytes_ - bytes);
+      }
     }
   }
 
   void Print() const {
+    if (c_.by_step > 0) return;
     const double ideal = rays_ * c_.ray / (static_cast<double>(nodes_.size()) * c_.slots);
     double processors = 0;
     for (const Server& processor : processors_) processors += processor.busy;
@@ -107,9 +112,11 @@ class Simulation {
     bool operator<(const Event& other) const { return time > other.time; }
   };
 
-  // Bytes of the result of so many rays over the patches that they hit.
+  // Bytes of the result of so many rays over the patches that they hit: all but those that
+  // Poisson's law leaves without a hit, where patches expect gamma-distributed numbers of them.
   double ResultBytes(double rays) const {
-    return 200 + c_.deposit_bytes * patches_ * -std::expm1(-rays / patches_);
+    const double missed = std::pow(1 + rays / (patches_ * c_.evenness), -c_.evenness);
+    return 200 + c_.deposit_bytes * patches_ * (1 - missed);
   }
   double UnitRays(const std::string& lease) const {
     const UnitRef& unit = state_.leases.at(lease).unit;
