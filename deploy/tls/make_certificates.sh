@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Certificates for a small farm, signed by a CA of its own, in FOLDER:
-#   make_certificates.sh FOLDER server HOST...           server.crt, server.key for these names and addresses
+#   make_certificates.sh FOLDER server|merger HOST...    server.crt, server.key or merger.crt, merger.key, for these
+#                                                        names and addresses; a merge shard's is also its role's
 #   make_certificates.sh FOLDER client|worker|admin NAME ROLE-NAME.crt, ROLE-NAME.key
 # The first call makes the CA: ca.crt, which every program is given, and ca.key, which belongs on
 # no machine of the farm. Certificates last 825 days. A role's certificate has the one URI
@@ -9,7 +10,7 @@ set -euo pipefail
 
 days=825
 usage() {
-  sed -n '2,5s/^# //p' "${BASH_SOURCE[0]}" >&2
+  sed -n '2,6s/^# //p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
 (($# >= 3)) || usage
@@ -37,14 +38,18 @@ sign() {
 }
 
 case $role in
-  server)
+  server | merger)
     names=
     for host in "$@"; do
       kind=DNS
       [[ $host =~ ^[0-9.]+$ || $host == *:* ]] && kind=IP
       names+=${names:+,}$kind:$host
     done
-    sign server "$1" serverAuth "$names"
+    if [[ $role == server ]]; then
+      sign server "$1" serverAuth "$names"
+    else
+      sign merger "$1" serverAuth,clientAuth "$names,URI:spiffe://lambert/merger/merger"
+    fi
     ;;
   client | worker | admin)
     [[ $# -eq 1 && $1 =~ ^[a-z][a-z0-9-]{0,39}$ ]] || usage
