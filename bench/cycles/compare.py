@@ -4,7 +4,7 @@
 
 Prints one JSON object. Compared is the reflected luminance, (B - E) / pi of patches.csv against the
 rendering without the emission of the patch, as the mean of the three channels; a patch has the mean of
-its pixels, and only pixels count in which the rendering saw one patch alone. PICTURE.jpg shows both
+its pixels, which the renderings see at other points each; only those count in which a rendering saw one patch alone. PICTURE.jpg shows both
 side by side under the exposure of run.json, and filmic: Lambert on the left.
 
 Needs python3-numpy, python3-openimageio and python3-pil.
@@ -81,51 +81,50 @@ def main():
     folder, traced_folder = sys.argv[1:3]
     run = json.load(open(os.path.join(folder, "run.json")))
     table = read_table(folder, ["exitance", "radiosity", "std_error"])
-    seeds = [read_exr(path) for path in sorted(glob.glob(os.path.join(traced_folder, "seed_*.exr")))]
+    paths = sorted(glob.glob(os.path.join(traced_folder, "seed_*.exr")))
+    seeds = [read_exr(path) for path in paths]
     baked = read_exr(os.path.join(folder, run["name"] + ".exr"))
-    patch = patch_numbers(seeds[0])
-    for traced in seeds[1:]:
-        patch = numpy.where(patch_numbers(traced) == patch, patch, -1)
-
-    seen = patch >= 0
-    members = patch[seen]
-    pixels = numpy.bincount(members, minlength=len(table["exitance"]))
-    emitted = table["exitance"] / math.pi
-    by_seed = []  # reflected luminance of the patches, mean of the channels
-    for traced in seeds:
-        reflected = (colour(traced, "Combined.")[seen] - emitted[members]).mean(axis=1)
-        total = numpy.bincount(members, weights=reflected, minlength=len(pixels))
-        by_seed.append(total / numpy.maximum(pixels, 1))
-    by_seed = numpy.array(by_seed)
-    count = len(seeds)
-
     ours = (table["radiosity"] - table["exitance"]).mean(axis=1) / math.pi
     ours_error = table["std_error"].mean(axis=1) / math.pi  # channels of one ray go together
-    truth = by_seed.mean(axis=0)
-    truth_error = by_seed.std(axis=0, ddof=1) / math.sqrt(count)
-    mean_by_seed = (by_seed * pixels).sum(axis=1) / pixels.sum()
-    mean_truth = mean_by_seed.mean()
-    mean_ours = (ours * pixels).sum() / pixels.sum()
-    ours_mean_error = math.sqrt(((ours_error * pixels) ** 2).sum()) / pixels.sum()
+
+    count, size = len(seeds), len(ours)
+    pixels = numpy.zeros((count, size), int)
+    totals = numpy.zeros((count, size))  # reflected luminance of the patches, mean of the channels
+    for k, traced in enumerate(seeds):
+        patch = patch_numbers(traced)
+        members = patch[patch >= 0]
+        reflected = (colour(traced, "Combined.")[patch >= 0]
+                     - table["exitance"][members] / math.pi).mean(axis=1)
+        pixels[k] = numpy.bincount(members, minlength=size)
+        totals[k] = numpy.bincount(members, weights=reflected, minlength=size)
+    in_all = pixels.sum(axis=0)
+    truth = totals.sum(axis=0) / numpy.maximum(in_all, 1)
+    # Of a ratio of sums over renderings, each of which sees a patch at other points.
+    rest = totals - truth * pixels
+    truth_error = numpy.sqrt((rest ** 2).sum(axis=0) * count / (count - 1)) / numpy.maximum(in_all, 1)
+    means = totals.sum(axis=1) / pixels.sum(axis=1)
+    excess = (pixels * ours).sum(axis=1) / pixels.sum(axis=1) - means
+    mean_truth = means.mean()
+    mean_excess = excess.mean()
+    excess_error = math.hypot(excess.std(ddof=1) / math.sqrt(count),
+                              math.sqrt(((ours_error * in_all) ** 2).sum()) / in_all.sum())
 
     # Patches of 20 pixels and more, and of those whose error is known.
-    judged = (pixels >= 20) & (table["std_error"].min(axis=1) >= 0)
+    judged = (in_all >= 20 * count) & (table["std_error"].min(axis=1) >= 0)
     known = judged & (truth_error > 0)
     z = (ours - truth)[known] / numpy.hypot(ours_error, truth_error)[known]
     relative = numpy.abs(ours - truth)[judged] / numpy.maximum(truth[judged], 0.01 * mean_truth)
     result = {
         "name": run["name"],
-        "patches": len(pixels),
-        "patches_seen": int((pixels > 0).sum()),
-        "pixels": int(pixels.sum()),
-        "pixels_confirmed": share_confirmed(patch, baked["id.patch"]),
+        "patches": size,
+        "patches_seen": int((in_all > 0).sum()),
+        "pixels": int(pixels[0].sum()),
+        "pixels_confirmed": share_confirmed(patch_numbers(seeds[0]), baked["id.patch"]),
         "seeds": count,
-        "mean_lambert_cd_per_m2": mean_ours,
+        "mean_lambert_cd_per_m2": mean_truth + mean_excess,
         "mean_cycles_cd_per_m2": mean_truth,
-        "mean_difference": mean_ours / mean_truth - 1 if mean_truth > 0 else None,
-        "mean_difference_se": float(numpy.hypot(mean_by_seed.std(ddof=1) / math.sqrt(count),
-                                                ours_mean_error) / mean_truth)
-        if mean_truth > 0 else None,
+        "mean_difference": mean_excess / mean_truth if mean_truth > 0 else None,
+        "mean_difference_se": excess_error / mean_truth if mean_truth > 0 else None,
         "patches_judged": int(judged.sum()),
     }
     if len(z) > 0:
@@ -141,7 +140,7 @@ def main():
     print(json.dumps(result, indent=1))
     if len(sys.argv) > 3:
         exposure = run["picture"]["exposure_per_lm_per_m2"]
-        height, width = patch.shape
+        height, width = baked["id.patch"].shape[0] // 2, baked["id.patch"].shape[1] // 2
         left = colour(baked)[:2 * height, :2 * width].reshape(height, 2, width, 2, 3).mean(axis=(1, 3))
         right = numpy.mean([colour(traced, "Combined.") for traced in seeds], axis=0)
         both = Image.new("RGB", (2 * width + 4, height), (255, 255, 255))

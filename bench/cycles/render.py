@@ -1,12 +1,14 @@
 """Path-traces what Lambert solved, with Cycles: the same triangles, reflectances and view.
 
-    blender --background --factory-startup --python render.py -- BAKED_DIR OUT_DIR [SAMPLES [SEEDS]]
+    blender --background --factory-startup --python render.py -- \
+        BAKED_DIR OUT_DIR [SAMPLES [SEEDS [SCENE.glb]]]
 
 BAKED_DIR is an output folder of `lambert bake`. Each triangle of its patches.csv gets a diffuse BSDF
 of its reflectance, and emits exitance / pi from its front; backs of one-sided triangles are black, and
-cameras see through them. The camera is the node `view` of the GLB; the picture has half the pixels of
-the PNG each way, and every sample is taken at the middle of its pixel. Writes OUT_DIR/seed_K.exr for each of SEEDS (8) renderings of
-SAMPLES (16) samples a pixel: luminance in cd/m2, and in the layer `patch` the number of the patch in
+cameras see through them. SCENE.glb, the file that was baked, is read for its punctual lights alone; sky and
+sun are those of run.json. The camera is the node `view` of the GLB; the picture has half the pixels of
+the PNG each way, and all samples of a rendering are taken at one point of their pixel, the next one's at another: at
+first the middle. Writes OUT_DIR/seed_K.exr for each of SEEDS (16) renderings of SAMPLES (2) samples a pixel: luminance in cd/m2, and in the layer `patch` the number of the patch in
 digits of base 256. Nothing is clamped, denoised or cut short under 1024 bounces.
 """
 
@@ -21,6 +23,9 @@ import bpy
 import mathutils
 import numpy
 
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+import lights  # noqa: E402
+
 
 def read_patches(folder):
     """Corners [n, 3, 3] in metres, reflectance and exitance [n, 3], of patches.csv."""
@@ -34,12 +39,14 @@ def read_patches(folder):
     return values[:, :9].reshape(-1, 3, 3), values[:, 9:12], values[:, 12:15]
 
 
+def read_run(folder):
+    with open(os.path.join(folder, "run.json")) as file:
+        return json.load(file)
+
+
 def read_view(folder):
     """Matrix, camera and origin of the patches: what the GLB says."""
-    name = json.load(open(os.path.join(folder, "run.json")))["name"]
-    with open(os.path.join(folder, name + ".glb"), "rb") as file:
-        size = struct.unpack("<5I", file.read(20))[3]
-        gltf = json.loads(file.read(size))
+    gltf = lights.read_gltf(os.path.join(folder, read_run(folder)["name"] + ".glb"))
     view = next(node for node in gltf["nodes"] if "camera" in node)
     matrix = mathutils.Matrix(numpy.array(view["matrix"]).reshape(4, 4).T.tolist())
     return matrix, gltf["cameras"][view["camera"]], gltf["nodes"][0].get("translation", [0, 0, 0])
@@ -173,9 +180,17 @@ def add_camera(matrix, camera, origin, width, height):
     scene.collection.objects.link(item)
     scene.camera = item
     render = scene.render
+    render.use_persistent_data = True
     render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100
     stretch = aspect * height / width  # of pixels that are not quite square
     render.pixel_aspect_x, render.pixel_aspect_y = max(stretch, 1), max(1 / stretch, 1)
+
+
+def shift_view(camera, number):
+    """By a part of a pixel, spread evenly over it as numbers grow (R2 sequence)."""
+    height = bpy.context.scene.render.resolution_y
+    shift = [(0.5 + number * step) % 1 - 0.5 for step in (0.7548776662466927, 0.5698402909980532)]
+    camera.shift_x, camera.shift_y = shift[0] / height, shift[1] / height
 
 
 def set_up_cycles(samples):
@@ -205,16 +220,15 @@ def set_up_cycles(samples):
 
 def picture_size(folder):
     """Half that of the PNG, from its header: pixels."""
-    name = json.load(open(os.path.join(folder, "run.json")))["name"]
-    with open(os.path.join(folder, name + ".png"), "rb") as file:
+    with open(os.path.join(folder, read_run(folder)["name"] + ".png"), "rb") as file:
         return [side // 2 for side in struct.unpack(">2I", file.read(24)[16:])]
 
 
 def main():
     arguments = sys.argv[sys.argv.index("--") + 1:]
     folder, out = arguments[:2]
-    samples = int(arguments[2]) if len(arguments) > 2 else 16
-    seeds = int(arguments[3]) if len(arguments) > 3 else 8
+    samples = int(arguments[2]) if len(arguments) > 2 else 2
+    seeds = int(arguments[3]) if len(arguments) > 3 else 16
     bpy.ops.wm.read_factory_settings(use_empty=True)
     corners, reflectance, exitance = read_patches(folder)
     matrix, camera, origin = read_view(folder)
@@ -229,8 +243,11 @@ def main():
     add_camera(matrix, camera, origin, *picture_size(folder))
     set_up_cycles(samples)
     scene = bpy.context.scene
+    scene_path = arguments[4] if len(arguments) > 4 else ""
+    lights.add_lights(read_run(folder)["options"], scene_path, origin, scene.world)
     for seed in range(1, seeds + 1):
         scene.cycles.seed = seed
+        shift_view(scene.camera.data, seed - 1)
         scene.render.filepath = os.path.abspath(os.path.join(out, f"seed_{seed}.exr"))
         bpy.ops.render.render(write_still=True)
 
