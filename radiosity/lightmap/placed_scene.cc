@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -55,11 +54,14 @@ const Primitive& PrimitiveOf(const Scene& scene, const PlacedSurface& surface) {
 }
 
 bool SourcesExist(const Scene& scene, const PatchSet& patches) {
-  std::set<std::pair<int32_t, int32_t>> shown;  // node and mesh
-  for (const Instance& instance : scene.instances) shown.emplace(instance.node, instance.mesh);
+  std::map<std::pair<int32_t, int32_t>, const Mesh*> shown;  // by node and mesh
+  for (const Instance& instance : scene.instances) {
+    shown[{instance.node, FileMeshOf(scene, instance)}] = &scene.meshes[instance.mesh];
+  }
   return std::all_of(patches.source.begin(), patches.source.end(), [&](const PatchSource& source) {
-    if (!shown.contains({source.node, source.mesh})) return false;
-    const std::vector<Primitive>& primitives = scene.meshes[source.mesh].primitives;
+    const auto mesh = shown.find({source.node, source.mesh});
+    if (mesh == shown.end()) return false;
+    const std::vector<Primitive>& primitives = mesh->second->primitives;
     if (source.primitive < 0 || source.triangle < 0) return false;
     return static_cast<size_t>(source.primitive) < primitives.size() &&
            static_cast<size_t>(source.triangle) < primitives[source.primitive].triangles.size();
@@ -71,7 +73,8 @@ std::vector<int32_t> FindTriangles(const Scene& scene, const PlacedScene& placed
   std::map<std::tuple<int32_t, int32_t, int32_t>, std::vector<int32_t>> first_of;
   for (const PlacedSurface& surface : placed.surfaces) {
     const Instance& instance = scene.instances[surface.instance];
-    first_of[{instance.node, instance.mesh, surface.primitive}].push_back(surface.first);
+    first_of[{instance.node, FileMeshOf(scene, instance), surface.primitive}].push_back(
+        surface.first);
   }
   std::vector<int32_t> found;
   found.reserve(patches.corners.size());

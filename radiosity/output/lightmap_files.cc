@@ -14,6 +14,7 @@
 #include "radiosity/output/lit_glb.h"
 #include "radiosity/output/output_file.h"
 #include "radiosity/output/png.h"
+#include "radiosity/patch/place.h"
 
 namespace lambert {
 namespace {
@@ -75,7 +76,7 @@ Json PrimitiveJson(const Scene& scene, const Atlas& atlas, const AtlasPart& part
   const int32_t kept = atlas.kept_uv[part.surface];
   return {{"instance", surface.instance},
           {"node", instance.node},
-          {"mesh", instance.mesh},
+          {"mesh", FileMeshOf(scene, instance)},
           {"primitive", surface.primitive},
           {"side", part.is_back ? "back" : "front"},
           {"page", part.page},

@@ -4,6 +4,11 @@
 
 namespace lambert {
 
+int32_t FileMeshOf(const Scene& scene, const Instance& instance) {
+  const int pose_of = scene.meshes[instance.mesh].pose_of;
+  return pose_of < 0 ? instance.mesh : pose_of;
+}
+
 void ScaleInstances(double metres_per_unit, Scene& scene) {
   for (Instance& instance : scene.instances) {
     instance.world = Placement{{}, metres_per_unit}.Place(instance.world);
@@ -16,7 +21,7 @@ absl::Status ForEachTriangle(const Scene& scene, const Placement& placement,
     const Transform world = placement.Place(instance.world);
     const bool mirrors = world.Determinant() < 0;
     const Mesh& mesh = scene.meshes[instance.mesh];
-    const int of_file = mesh.pose_of < 0 ? instance.mesh : mesh.pose_of;
+    const int32_t of_file = FileMeshOf(scene, instance);
     for (size_t p = 0; p < mesh.primitives.size(); ++p) {
       const Primitive& primitive = mesh.primitives[p];
       for (size_t t = 0; t < primitive.triangles.size(); ++t) {

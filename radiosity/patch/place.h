@@ -21,6 +21,10 @@ struct Placement {
   }
 };
 
+// Index in the file of the mesh that an instance shows, also where it shows it in a pose of its
+// own: what PatchSource names.
+int32_t FileMeshOf(const Scene& scene, const Instance& instance);
+
 // Makes metres of the file's unit, for all that a scene shows.
 void ScaleInstances(double metres_per_unit, Scene& scene);
 

@@ -7,6 +7,7 @@
 #include "radiosity/core/error.h"
 #include "radiosity/lightmap/atlas_part.h"
 #include "radiosity/lightmap/lightmap.h"
+#include "radiosity/patch/place.h"
 #include "tests/support/scenes.h"
 
 namespace lambert {
@@ -137,6 +138,21 @@ TEST(SourcesExist, APatchThatNoInstanceShowsIsFound) {
     patches.source[3] = wrong;
     EXPECT_FALSE(SourcesExist(scene, patches));
   }
+}
+
+TEST(SourcesExist, AMeshInAPoseOfItsOwnIsNamedAsInTheFile) {
+  Scene scene = SceneMaker().Quad({}, {1, 0, 0}, {0, 1, 0}, {{0.5, 0.5, 0.5}, {}}).Make();
+  Mesh posed = scene.meshes[0];
+  posed.pose_of = 0;
+  scene.meshes[0].primitives.clear();  // as those of a mesh that is shown in poses alone
+  scene.instances[0].mesh = 1;
+  scene.meshes.push_back(posed);
+  const PatchSet patches = PatchesOf(scene);
+  EXPECT_EQ(FileMeshOf(scene, scene.instances[0]), 0);
+  EXPECT_EQ(patches.source[0].mesh, 0);
+  ASSERT_TRUE(SourcesExist(scene, patches));
+  EXPECT_EQ(FindTriangles(scene, PlaceScene(scene, patches.origin), patches).size(),
+            patches.corners.size());
 }
 
 TEST(PartsOf, EachPartHasTheTrianglesOfItsSide) {
