@@ -131,6 +131,7 @@ def add_sky(options, world):
     if kind not in ("uniform", "overcast"):
         raise SystemExit(f"--sky {kind}: only uniform and overcast can be path-traced")
     world.use_nodes = True
+    world.cycles_visibility.camera = False
     tree = world.node_tree
     direction = tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"]
     height = dot(tree, direction, (0, 1, 0))

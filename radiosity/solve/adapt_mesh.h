@@ -23,7 +23,7 @@ struct Meshing {
   int64_t coarse_patches = 0;   // before it
   int32_t pilots = 0;           // solutions that it was guided by
   int64_t pilot_rays = 0;       // of all of them
-  double predicted_error = -1;  // of the patches that the last pilot saw, MeshError::rms_area
+  double predicted_error = -1;  // of the patches as they are then, as MeshError::rms_area
   double seconds = 0;           // wall clock
   std::string reason;           // why it ended: one sentence
 };
@@ -49,9 +49,13 @@ absl::StatusOr<std::shared_ptr<const PatchSet>> AdaptMesh(const Scene& scene,
                                                           const SolveOptions& solve, RunPilot run,
                                                           Meshing* meshing);
 
-// The edges to halve so that patches with the most of the error are split: those that have three
-// fifths of it together, or fewer where they would become more than `most_patches`. Empty where
-// none can be.
-EdgeMarks ChooseSplits(const PatchSet& patches, const MeshError& error, int64_t most_patches);
+struct Splits {
+  EdgeMarks marks;   // the edges to halve
+  double share = 0;  // of the sum of MeshError::squares that the patches have which are split
+};
+
+// Splits the patches with the most of the error: those that have four fifths of it together, or
+// fewer where they would become more than `most_patches`. Empty where none can be.
+Splits ChooseSplits(const PatchSet& patches, const MeshError& error, int64_t most_patches);
 
 }  // namespace lambert
