@@ -85,7 +85,8 @@ def main():
     seeds = [read_exr(path) for path in paths]
     baked = read_exr(os.path.join(folder, run["name"] + ".exr"))
     ours = (table["radiosity"] - table["exitance"]).mean(axis=1) / math.pi
-    ours_error = table["std_error"].mean(axis=1) / math.pi  # channels of one ray go together
+    # Channels of one ray go together. Negative: not known.
+    ours_error = numpy.maximum(table["std_error"].mean(axis=1), 0) / math.pi
 
     count, size = len(seeds), len(ours)
     pixels = numpy.zeros((count, size), int)

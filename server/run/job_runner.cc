@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <optional>
 #include <utility>
 
 #include "radiosity/core/digest.h"
@@ -24,6 +25,16 @@ bool IsInterrupted(const absl::Status& status) {
   return IsOwnershipLost(status) || ReasonOf(status) == "SHUTTING_DOWN";
 }
 
+void Tell(const Plan& plan, const PatchSet& patches, Job& job) {
+  job.Update([&](v1::SolveJob& record) {
+    *record.mutable_plan() = EncodePlan(plan, record.spec());
+    record.clear_warnings();
+    for (const Warning& warning : patches.warnings) {
+      *record.add_warnings() = EncodeWarning(warning);
+    }
+  });
+}
+
 }  // namespace
 
 void JobRunner::Run(Job& job) {
@@ -44,8 +55,7 @@ absl::Status JobRunner::Solve(Job& job, Journal& journal) {
   if (absl::Status loaded = journal.Load(); !loaded.ok()) return loaded;
   absl::StatusOr<JobOptions> options = DecodeSpec(job.Get().spec(), parts_.max_patches);
   if (!options.ok()) return options.status();
-  absl::StatusOr<std::shared_ptr<const PatchSet>> patches =
-      PatchMaker(parts_, job, journal).Make(*options);
+  absl::StatusOr<std::shared_ptr<const PatchSet>> patches = MakePatches(job, journal, *options);
   if (!patches.ok()) return patches.status();
   if (absl::Status status = ValidateFor(**patches, options->solve); !status.ok()) {
     return status;
@@ -60,13 +70,7 @@ absl::Status JobRunner::Solve(Job& job, Journal& journal) {
       solve.max_time_s = std::max(solve.max_time_s / 2, solve.max_time_s - meshing.seconds);
     }
   }
-  job.Update([&](v1::SolveJob& record) {
-    *record.mutable_plan() = EncodePlan(plan, record.spec());
-    record.clear_warnings();
-    for (const Warning& warning : (*patches)->warnings) {
-      *record.add_warnings() = EncodeWarning(warning);
-    }
-  });
+  Tell(plan, **patches, job);
   if (absl::Status saved = parts_.jobs->Save(job); !saved.ok()) return saved;
 
   Solver solver(*patches, solve, [this] { return ToSeconds(parts_.clock().time_since_epoch()); });
@@ -80,6 +84,20 @@ absl::Status JobRunner::Solve(Job& job, Journal& journal) {
   const absl::Status status = RunPasses(job, journal, solver, steps);
   steps.LogSummary();
   return status;
+}
+
+absl::StatusOr<std::shared_ptr<const PatchSet>> JobRunner::MakePatches(Job& job, Journal& journal,
+                                                                       const JobOptions& options) {
+  PatchMaker maker(parts_, job, journal);
+  absl::StatusOr<std::shared_ptr<const PatchSet>> patches = maker.Make(options);
+  if (patches.ok() || IsInterrupted(patches.status())) return patches;
+  absl::StatusOr<std::optional<PilotResult>> best = maker.TakeBest();
+  if (!best.ok()) return best.status();
+  if (!best->has_value()) return patches;
+  Tell((*best)->plan, *(*best)->patches, job);
+  absl::Status published = Publish(job, journal, nullptr, (*best)->snapshot);
+  if (!published.ok()) return published;
+  return patches;
 }
 
 absl::Status JobRunner::RunPasses(Job& job, Journal& journal, Solver& solver, JobSteps& steps) {
@@ -111,8 +129,8 @@ absl::Status JobRunner::RunPasses(Job& job, Journal& journal, Solver& solver, Jo
   return status;
 }
 
-absl::Status JobRunner::Publish(Job& job, Journal& journal, const Solver& solver) {
-  const lambert::Snapshot made = solver.MakeSnapshot();
+absl::Status JobRunner::Publish(Job& job, Journal& journal, const Solver* solver,
+                                const lambert::Snapshot& made) {
   std::string payload = EncodeSolution(*made.solution);
   v1::Snapshot snapshot;
   snapshot.set_version(job.Get().latest_snapshot().version() + 1);
@@ -128,8 +146,8 @@ absl::Status JobRunner::Publish(Job& job, Journal& journal, const Solver& solver
     return stored;
   }
   absl::Status published;
-  if (journal.keeps()) {
-    absl::StatusOr<RecordChange> change = journal.Replace(solver.EncodeCheckpoint());
+  if (journal.keeps() && solver != nullptr) {
+    absl::StatusOr<RecordChange> change = journal.Replace(solver->EncodeCheckpoint());
     published = change.ok() ? parts_.jobs->Publish(job, snapshot, {*change}) : change.status();
     if (published.ok()) journal.Settle();
   } else {

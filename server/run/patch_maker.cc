@@ -35,38 +35,47 @@ absl::StatusOr<std::shared_ptr<const PatchSet>> PatchMaker::ReadBack(
 absl::StatusOr<std::shared_ptr<const PatchSet>> PatchMaker::Adapt(const Scene& scene,
                                                                   const JobOptions& options) {
   const TimePoint began = parts_.clock();
-  Meshing meshing;
   const auto run = [&](const std::shared_ptr<const PatchSet>& patches, const SolveOptions& pilot,
-                       int32_t) { return RunPilot(patches, pilot, meshing); };
+                       int32_t) { return RunPilot(patches, pilot); };
   absl::StatusOr<std::shared_ptr<const PatchSet>> patches =
-      AdaptMesh(scene, options.patch, options.solve, run, &meshing);
+      AdaptMesh(scene, options.patch, options.solve, run, &meshing_);
   if (!patches.ok()) return patches.status();
-  meshing.seconds = ToSeconds(parts_.clock() - began);
+  meshing_.seconds = ToSeconds(parts_.clock() - began);
   if (absl::Status stored = Store(**patches); !stored.ok()) return stored;
-  job_.Update([&](v1::SolveJob& record) { *record.mutable_meshing() = EncodeMeshing(meshing); });
+  job_.Update([&](v1::SolveJob& record) { *record.mutable_meshing() = EncodeMeshing(meshing_); });
+  best_.reset();
   return patches;
 }
 
+absl::StatusOr<std::optional<PilotResult>> PatchMaker::TakeBest() {
+  if (!best_.has_value()) return std::nullopt;
+  if (absl::Status stored = Store(*best_->patches); !stored.ok()) return stored;
+  meshing_.reason = "it was stopped";
+  best_->plan.items.push_back(TellMeshing(meshing_, best_->patches->size()));
+  return std::exchange(best_, std::nullopt);
+}
+
 absl::StatusOr<Solution> PatchMaker::RunPilot(const std::shared_ptr<const PatchSet>& patches,
-                                              const SolveOptions& pilot, Meshing& meshing) {
+                                              const SolveOptions& pilot) {
   if (absl::Status stored = Store(*patches); !stored.ok()) return stored;
   const Plan plan = MakePlan(*patches, pilot);
   Solver solver(patches, plan.options,
                 [this] { return ToSeconds(parts_.clock().time_since_epoch()); });
   JobSteps steps(parts_, job_, journal_, patches->size(), plan.options.shoot, {});
   const auto on_step = [&](Progress progress) {
-    progress.pilot = meshing.pilots;
+    progress.pilot = meshing_.pilots;
     progress.pilot_patches = patches->size();
     steps.OnStep(progress);
   };
-  while (solver.stop_reason() == StopReason::kNone) {
-    if (absl::Status status = solver.RunPass(steps.executor(), on_step); !status.ok()) {
-      return status;
-    }
+  absl::Status status;
+  while (status.ok() && solver.stop_reason() == StopReason::kNone) {
+    status = solver.RunPass(steps.executor(), on_step);
   }
-  const Snapshot snapshot = solver.MakeSnapshot();
-  meshing.pilot_rays += snapshot.progress.rays;
-  return *snapshot.solution;
+  lambert::Snapshot snapshot = solver.MakeSnapshot();
+  meshing_.pilot_rays += snapshot.progress.rays;
+  if (snapshot.progress.rays > 0) best_ = PilotResult{patches, plan, std::move(snapshot)};
+  if (!status.ok()) return status;
+  return *best_->snapshot.solution;
 }
 
 absl::Status PatchMaker::Store(const PatchSet& patches) {

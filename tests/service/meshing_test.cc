@@ -8,13 +8,14 @@
 namespace lambert {
 namespace {
 
-constexpr int64_t kRays = 100'000, kPatches = 1000;
+constexpr int64_t kRays = 1'000'000, kPatches = 3000;
 
 // What a job on MakeCornell(1) is without a network.
 struct Serial {
   std::shared_ptr<const PatchSet> patches;
   Meshing meshing;
   std::string solution;
+  std::vector<std::string> pilots;  // their solutions
 };
 
 Solution Solve(const std::shared_ptr<const PatchSet>& patches, const SolveOptions& options,
@@ -39,8 +40,12 @@ Serial SolveSerially() {
   Serial serial;
   serial.patches = *AdaptMesh(
       scene, patch, options,
-      [&](const std::shared_ptr<const PatchSet>& patches, const SolveOptions& pilot, int32_t)
-          -> absl::StatusOr<Solution> { return Solve(patches, pilot, &serial.meshing.pilot_rays); },
+      [&](const std::shared_ptr<const PatchSet>& patches, const SolveOptions& pilot,
+          int32_t) -> absl::StatusOr<Solution> {
+        Solution solution = Solve(patches, pilot, &serial.meshing.pilot_rays);
+        serial.pilots.push_back(EncodeSolution(solution));
+        return solution;
+      },
       &serial.meshing);
   int64_t rays = 0;
   serial.solution = EncodeSolution(Solve(serial.patches, options, &rays));
@@ -66,6 +71,7 @@ class MeshingJob : public ServiceFixture {
 TEST_F(MeshingJob, GivesTheBytesOfTheLoopWithoutANetworkAndTellsWhatItDid) {
   const Serial serial = SolveSerially();
   ASSERT_GT(serial.patches->size(), 64);
+  ASSERT_GT(serial.pilots.size(), 1u);
   AddWorker();
   AddWorker();
   const Watched watched = Watch(CreateAdaptedJob().name());
@@ -82,6 +88,31 @@ TEST_F(MeshingJob, GivesTheBytesOfTheLoopWithoutANetworkAndTellsWhatItDid) {
   const auto& items = watched.ended.plan().items();
   EXPECT_EQ(items[items.size() - 1].part(), "adapt");
   EXPECT_EQ(watched.ended.plan().patch_count(), serial.patches->size());
+}
+
+TEST_F(MeshingJob, KeepsTheLastPilotThatShotWhereItIsCancelledMeanwhile) {
+  const Serial serial = SolveSerially();
+  ASSERT_GT(serial.pilots.size(), 1u);
+  const std::string job = CreateAdaptedJob().name();
+  PatchIndex first = 0;
+  AddWorker([&](const std::shared_ptr<const PatchSet>& patches, const ShootOptions& options) {
+    if (first == 0) first = patches->size();
+    if (patches->size() != first) {  // the second pilot's
+      v1::CancelSolveJobRequest request;
+      request.set_name(job);
+      v1::SolveJob cancelled;
+      grpc::ClientContext context;
+      EXPECT_TRUE(jobs()->CancelSolveJob(&context, request, &cancelled).ok());
+    }
+    return Shooter::Create(patches, options);
+  });
+  const Watched watched = Watch(job);
+  EXPECT_EQ(watched.ended.state(), v1::SolveJob::STATE_CANCELLED);
+  EXPECT_EQ(watched.payload, serial.pilots[0]);
+  EXPECT_EQ(watched.ended.plan().patch_count(), first);
+  EXPECT_TRUE(coordinator_->blobs().Has(watched.ended.patch_set_digest().sha256()));
+  const auto& items = watched.ended.plan().items();
+  EXPECT_NE(items[items.size() - 1].reason().find("it was stopped"), std::string::npos);
 }
 
 TEST_F(MeshingJob, LeavesNoPatchSetOfItsPilots) {
