@@ -3,8 +3,10 @@
     python3 compare.py BAKED_DIR TRACED_DIR [PICTURE.jpg]
 
 Prints one JSON object. Compared is the reflected luminance, (B - E) / pi of patches.csv against the
-rendering without the emission of the patch, as the mean of the three channels; a patch has the mean of
-its pixels, which the renderings see at other points each; only those count in which a rendering saw one patch alone. PICTURE.jpg shows both
+rendering without the emission of the patch, as the mean of the three channels. A patch has the mean of its
+pixels, by the area that each shows of it; the renderings see it at other points each, and only pixels count
+in which a rendering saw one patch alone. Only patches are compared that are in view whole: what is hidden
+of one may be darker. PICTURE.jpg shows both
 side by side under the exposure of run.json, and filmic: Lambert on the left.
 
 Needs python3-numpy, python3-openimageio and python3-pil.
@@ -15,11 +17,14 @@ import glob
 import json
 import math
 import os
+import struct
 import sys
 
 import numpy
 import OpenImageIO
 from PIL import Image
+
+SEEN_WHOLE = 0.95  # of a patch's pixels: the rest is rounding at its edges
 
 
 def read_exr(path):
@@ -43,6 +48,55 @@ def read_table(folder, names):
         at = [[column[f"{name}_{c}"] for c in "rgb"] for name in names]
         values = [[[float(row[k]) for k in triple] for triple in at] for row in rows]
     return dict(zip(names, numpy.array(values).swapaxes(0, 1)))
+
+
+class View:
+    """The camera of NAME.glb, and the triangles of patches.csv in it."""
+
+    def __init__(self, folder, name, corners, height, width):
+        with open(os.path.join(folder, name + ".glb"), "rb") as file:
+            gltf = json.loads(file.read(struct.unpack("<5I", file.read(20))[3]))
+        node = next(node for node in gltf["nodes"] if "camera" in node)
+        camera = gltf["cameras"][node["camera"]]
+        matrix = numpy.array(node["matrix"]).reshape(4, 4)
+        self.axes, eye = matrix[:3, :3], matrix[3, :3]  # right, up, back
+        self.size = numpy.array([width, height])
+        self.is_flat = camera["type"] != "perspective"
+        if self.is_flat:
+            self.half = numpy.array([camera["orthographic"][k] for k in ("xmag", "ymag")])
+        else:
+            tangent = math.tan(camera["perspective"]["yfov"] / 2)
+            self.half = tangent * numpy.array([camera["perspective"]["aspectRatio"], 1])
+        self.corners = (corners - eye) @ self.axes.T
+        self.normals = numpy.cross(self.corners[:, 1] - self.corners[:, 0],
+                                   self.corners[:, 2] - self.corners[:, 0])
+
+    def areas(self):
+        """Of each triangle in pixels; infinite where a corner is out of view."""
+        depth = 1 if self.is_flat else -self.corners[:, :, 2:]
+        at = self.corners[:, :, :2] / numpy.where(depth == 0, 1e-30, depth) / self.half
+        inside = (abs(at) <= 1).all(axis=(1, 2)) & (self.corners[:, :, 2] < 0).all(axis=1)
+        a, b = at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]
+        pixels = abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2 * self.size.prod() / 4
+        return numpy.where(inside, pixels, math.inf)
+
+    def weights(self, patch):
+        """Area that each pixel shows of its patch, in any unit: 1 / cos^3 to the plane's normal."""
+        if self.is_flat:
+            return numpy.ones(patch.shape)
+        width, height = self.size
+        x = self.half[0] * ((2 * numpy.arange(width) + 1) / width - 1)
+        y = self.half[1] * (1 - (2 * numpy.arange(height) + 1) / height)
+        normal = self.normals[numpy.maximum(patch, 0)]
+        along = normal[:, :, 0] * x + normal[:, :, 1] * y[:, None] - normal[:, :, 2]
+        return numpy.where(patch >= 0, 1 / numpy.maximum(abs(along), 1e-30) ** 3, 0)
+
+
+def read_corners(folder):
+    with open(os.path.join(folder, "patches.csv"), newline="") as file:
+        rows = csv.reader(file)
+        first = next(rows).index("x0")
+        return numpy.array([row[first:first + 9] for row in rows], float).reshape(-1, 3, 3)
 
 
 def filmic(value):
@@ -89,37 +143,41 @@ def main():
     ours_error = numpy.maximum(table["std_error"].mean(axis=1), 0) / math.pi
 
     count, size = len(seeds), len(ours)
-    pixels = numpy.zeros((count, size), int)
+    pixels = numpy.zeros(size)
+    weights = numpy.zeros((count, size))
     totals = numpy.zeros((count, size))  # reflected luminance of the patches, mean of the channels
+    height, width = (side // 2 for side in baked["id.patch"].shape)
+    view = View(folder, run["name"], read_corners(folder), height, width)
     for k, traced in enumerate(seeds):
         patch = patch_numbers(traced)
-        members = patch[patch >= 0]
+        members, weight = patch[patch >= 0], view.weights(patch)[patch >= 0]
         reflected = (colour(traced, "Combined.")[patch >= 0]
                      - table["exitance"][members] / math.pi).mean(axis=1)
-        pixels[k] = numpy.bincount(members, minlength=size)
-        totals[k] = numpy.bincount(members, weights=reflected, minlength=size)
-    in_all = pixels.sum(axis=0)
-    truth = totals.sum(axis=0) / numpy.maximum(in_all, 1)
+        pixels += numpy.bincount(members, minlength=size) / count
+        weights[k] = numpy.bincount(members, weights=weight, minlength=size)
+        totals[k] = numpy.bincount(members, weights=weight * reflected, minlength=size)
+    all_weights = numpy.maximum(weights.sum(axis=0), 1e-300)
+    truth = totals.sum(axis=0) / all_weights
     # Of a ratio of sums over renderings, each of which sees a patch at other points.
-    rest = totals - truth * pixels
-    truth_error = numpy.sqrt((rest ** 2).sum(axis=0) * count / (count - 1)) / numpy.maximum(in_all, 1)
-    means = totals.sum(axis=1) / pixels.sum(axis=1)
-    excess = (pixels * ours).sum(axis=1) / pixels.sum(axis=1) - means
-    mean_truth = means.mean()
-    mean_excess = excess.mean()
-    excess_error = math.hypot(excess.std(ddof=1) / math.sqrt(count),
-                              math.sqrt(((ours_error * in_all) ** 2).sum()) / in_all.sum())
+    rest = (totals - truth * weights) / all_weights * math.sqrt(count / (count - 1))
+    truth_error = numpy.sqrt((rest ** 2).sum(axis=0))
+    whole = (pixels > 0) & (pixels >= SEEN_WHOLE * view.areas())
+    share = numpy.where(whole, pixels, 0) / max(pixels[whole].sum(), 1e-300)
+    mean_truth = (share * truth).sum()
+    mean_excess = (share * ours).sum() - mean_truth
+    excess_error = math.sqrt(((rest @ share) ** 2).sum() + ((ours_error * share) ** 2).sum())
 
     # Patches of 20 pixels and more, and of those whose error is known.
-    judged = (in_all >= 20 * count) & (table["std_error"].min(axis=1) >= 0)
+    judged = whole & (pixels >= 20) & (table["std_error"].min(axis=1) >= 0)
     known = judged & (truth_error > 0)
     z = (ours - truth)[known] / numpy.hypot(ours_error, truth_error)[known]
     relative = numpy.abs(ours - truth)[judged] / numpy.maximum(truth[judged], 0.01 * mean_truth)
     result = {
         "name": run["name"],
         "patches": size,
-        "patches_seen": int((in_all > 0).sum()),
-        "pixels": int(pixels[0].sum()),
+        "patches_seen": int((pixels > 0).sum()),
+        "pixels": int(pixels.sum()),
+        "pixels_of_whole_patches": pixels[whole].sum() / max(pixels.sum(), 1),
         "pixels_confirmed": share_confirmed(patch_numbers(seeds[0]), baked["id.patch"]),
         "seeds": count,
         "mean_lambert_cd_per_m2": mean_truth + mean_excess,
@@ -141,7 +199,6 @@ def main():
     print(json.dumps(result, indent=1))
     if len(sys.argv) > 3:
         exposure = run["picture"]["exposure_per_lm_per_m2"]
-        height, width = baked["id.patch"].shape[0] // 2, baked["id.patch"].shape[1] // 2
         left = colour(baked)[:2 * height, :2 * width].reshape(height, 2, width, 2, 3).mean(axis=(1, 3))
         right = numpy.mean([colour(traced, "Combined.") for traced in seeds], axis=0)
         both = Image.new("RGB", (2 * width + 4, height), (255, 255, 255))
