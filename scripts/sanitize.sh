@@ -2,6 +2,7 @@
 # scripts/sanitize.sh [PRESET [TEST...]]: builds test programs with sanitizers and runs them, one after the other. PRESET:
 # asan (default) or tsan. Without TEST: the tests of the reader of scenes; those of compressed meshes again and, where
 # the corpus of hostile files is there, each of them, in processes of 512 MiB. Ends with 1 where one fails.
+# Races in the coordinator: scripts/sanitize.sh tsan service_parts_test, by hand, for it takes many minutes to build.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
