@@ -123,11 +123,16 @@ Cuts FindCrossings(const Scene& scene, const PatchOptions& options, int64_t most
   const absl::StatusOr<Survey> survey = SurveyScene(scene, options);
   if (!survey.ok()) return {};
   std::vector<std::array<Vec3, 3>> triangles;
-  const absl::Status placed = ForEachTriangle(scene, {survey->origin, options.metres_per_unit},
-                                              [&](const PlacedTriangle& triangle) {
-                                                triangles.push_back(triangle.corners);
-                                                return absl::OkStatus();
-                                              });
+  const auto add = [&](const PlacedTriangle& triangle) {
+    const int material = triangle.primitive->material;
+    const bool is_omitted =
+        options.blend == Blend::kOmit && material >= 0 && scene.materials[material].blend;
+    // What is left out cuts nothing, as what has no area.
+    triangles.push_back(is_omitted ? std::array<Vec3, 3>{} : triangle.corners);
+    return absl::OkStatus();
+  };
+  const absl::Status placed =
+      ForEachTriangle(scene, {survey->origin, options.metres_per_unit}, add);
   return placed.ok() ? Cuts{CutCrossings(triangles, most_pieces), {}} : Cuts();
 }
 

@@ -144,5 +144,21 @@ TEST(FindCrossings, OfASceneAreCutByBuildPatchesAndCounted) {
   }
 }
 
+TEST(FindCrossings, WhatIsLeftOutCutsNothing) {
+  const Paint paint{{0.5, 0.5, 0.5}, {1, 1, 1}};
+  Scene scene = SceneMaker()
+                    .Quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, paint)
+                    .Quad({0.3, -1, -1}, {0, 2, 0}, {0, 0, 2}, {{0.4, 0.4, 0.4}, {}})
+                    .Make();
+  const int floor = scene.meshes[0].primitives[0].material;
+  for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
+    scene.materials[i].blend = i != floor;
+  }
+  EXPECT_FALSE(FindCrossings(scene, {}, kMost).crossed.empty());
+  PatchOptions omit;
+  omit.blend = Blend::kOmit;
+  EXPECT_TRUE(FindCrossings(scene, omit, kMost).crossed.empty());
+}
+
 }  // namespace
 }  // namespace lambert

@@ -28,8 +28,8 @@ struct Adapted {
   Meshing meshing;
 };
 
-Adapted Adapt(const Scene& scene, int64_t budget, const SolveOptions& solve = {}) {
-  PatchOptions options;
+Adapted Adapt(const Scene& scene, int64_t budget, const SolveOptions& solve = {},
+              PatchOptions options = {}) {
   options.adapt_patches = budget;
   Adapted adapted;
   const auto run = [&](const std::shared_ptr<const PatchSet>& patches, const SolveOptions& pilot,
@@ -60,6 +60,52 @@ TEST(AdaptMesh, SplitsAtAShadowsEdgeAndNotBesideIt) {
     (from_edge < 0.06 ? edge_area : beside_area) += patches.area_m2[i];
   }
   EXPECT_GT(at_edge / edge_area, 5 * beside / beside_area) << "patches in a m2";
+}
+
+// A floor of 4 x 4 m, up is +y; a black square of 1 x 1 m hangs over its middle.
+Scene MakeOutdoors(double height_m) {
+  const double s = kScreen_m;
+  return SceneMaker()
+      .Quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, {{0.5, 0.5, 0.5}, {}})
+      .Quad({-s, height_m, -s}, {0, 0, 2 * s}, {2 * s, 0, 0}, {{}, {}, true})
+      .Make();
+}
+
+TEST(AdaptMesh, FollowsTheShadowOfASun) {
+  PatchOptions options;
+  options.lights.sun_elevation_deg = 90;
+  options.lights.sun_illuminance_lx = 1000;
+  // Of the patches of the floor that are both in light and in shadow.
+  const auto straddling_m2 = [&](int64_t budget) {
+    const Adapted adapted = Adapt(MakeOutdoors(1), budget, {}, options);
+    const PatchSet& patches = *adapted.patches;
+    double area_m2 = 0;
+    for (PatchIndex i = 0; i < patches.size(); ++i) {
+      int lit = 0, dark = 0;
+      for (const Vec3& corner : patches.corners[i]) {
+        const Vec3 p = corner + patches.origin;
+        const double reach = std::max(std::fabs(p.x), std::fabs(p.z));
+        lit += p.y < 0.5 && reach > kScreen_m + 1e-9;
+        dark += p.y < 0.5 && reach < kScreen_m - 1e-9;
+      }
+      if (lit > 0 && dark > 0) area_m2 += patches.area_m2[i];
+    }
+    return area_m2;
+  };
+  const double coarse_m2 = straddling_m2(300);
+  EXPECT_GT(coarse_m2, 0);
+  EXPECT_LT(straddling_m2(3000), coarse_m2 / 2);
+}
+
+TEST(AdaptMesh, FollowsTheShadowOfASky) {
+  PatchOptions options;
+  options.lights.sky = "uniform";
+  SolveOptions solve;
+  solve.max_error = 0.005;
+  const Adapted coarse = Adapt(MakeOutdoors(0.2), 200, solve, options);
+  const Adapted fine = Adapt(MakeOutdoors(0.2), 1000, solve, options);
+  EXPECT_GT(fine.patches->size(), coarse.patches->size());
+  EXPECT_LT(fine.meshing.predicted_error, coarse.meshing.predicted_error);
 }
 
 TEST(AdaptMesh, EqualOptionsGiveEqualBytesAndOtherSeedsMayNot) {
