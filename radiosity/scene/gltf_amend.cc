@@ -27,6 +27,23 @@ std::vector<json*> ObjectsOf(json* gltf, const char* name) {
   return objects;
 }
 
+// Sparse accessors without a buffer view of their own that primitives take their indices from.
+std::vector<size_t> FindIndicesWithoutView(json* gltf) {
+  std::vector<size_t> found;
+  for (json* mesh : ObjectsOf(gltf, "meshes")) {
+    for (json* primitive : ObjectsOf(mesh, "primitives")) {
+      const auto index = primitive->find("indices");
+      if (index == primitive->end() || !index->is_number_unsigned()) continue;
+      const json::json_pointer pointer = "/accessors"_json_pointer / index->get<size_t>();
+      if (!gltf->contains(pointer)) continue;
+      const json& accessor = (*gltf)[pointer];
+      if (!accessor.contains("sparse") || accessor.contains("bufferView")) continue;
+      found.push_back(index->get<size_t>());
+    }
+  }
+  return found;
+}
+
 bool Amend(json* gltf) {
   bool amended = false;
   for (json* skin : ObjectsOf(gltf, "skins")) {
@@ -73,17 +90,22 @@ bool IsFallbackBuffer(const json& buffer) {
   return buffer.is_object() && buffer.contains(pointer) && buffer[pointer] == true;
 }
 
-std::optional<std::string> AmendGltf(const std::string& main_bytes) {
+std::optional<AmendedGltf> AmendGltf(const std::string& main_bytes) {
   const absl::StatusOr<absl::string_view> text = FindJsonText(main_bytes);
-  if (!text.ok() || (!absl::StrContains(*text, "\"skins\"") &&
-                     !absl::StrContains(*text, kMeshopt) && !absl::StrContains(*text, kDraco))) {
+  if (!text.ok() ||
+      (!absl::StrContains(*text, "\"skins\"") && !absl::StrContains(*text, kMeshopt) &&
+       !absl::StrContains(*text, kDraco) && !absl::StrContains(*text, "\"sparse\""))) {
     return std::nullopt;
   }
   json gltf = json::parse(text->begin(), text->end(), nullptr, false);
-  if (!gltf.is_object() || !Amend(&gltf)) return std::nullopt;
-  std::string amended = gltf.dump(-1, ' ', false, json::error_handler_t::replace);
-  if (!IsGlb(main_bytes)) return amended;
-  return WithJson(main_bytes, *text, std::move(amended));
+  if (!gltf.is_object()) return std::nullopt;
+  const bool changed = Amend(&gltf);
+  AmendedGltf amended{"", FindIndicesWithoutView(&gltf)};
+  if (!changed && amended.without_view.empty()) return std::nullopt;
+  for (size_t accessor : amended.without_view) gltf["accessors"][accessor]["bufferView"] = 0;
+  amended.bytes = gltf.dump(-1, ' ', false, json::error_handler_t::replace);
+  if (IsGlb(main_bytes)) amended.bytes = WithJson(main_bytes, *text, std::move(amended.bytes));
+  return amended;
 }
 
 }  // namespace lambert

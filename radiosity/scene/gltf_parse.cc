@@ -82,8 +82,8 @@ absl::StatusOr<tinygltf::Model> ParseModel(const SceneBundle& bundle) {
   BundleFiles files{&bundle, ""};
   tinygltf::Model model;
   std::string error, warning;
-  const std::optional<std::string> amended = AmendGltf(bundle.main_bytes);
-  const std::string& bytes = amended ? *amended : bundle.main_bytes;
+  const std::optional<AmendedGltf> amended = AmendGltf(bundle.main_bytes);
+  const std::string& bytes = amended ? amended->bytes : bundle.main_bytes;
   bool ok = false;
   try {
     tinygltf::TinyGLTF parser;
@@ -104,6 +104,9 @@ absl::StatusOr<tinygltf::Model> ParseModel(const SceneBundle& bundle) {
   // An error beside success is a part that tinygltf left out; a scene with parts missing is not the
   // scene that was meant.
   if (!ok || !error.empty()) return ParseFailure(error, files);
+  if (amended) {
+    for (size_t accessor : amended->without_view) model.accessors[accessor].bufferView = -1;
+  }
   return model;
 }
 

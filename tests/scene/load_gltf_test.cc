@@ -107,6 +107,19 @@ TEST(LoadGltf, InterleavedAndSparseAndNormalisedAccessorsAreReadRight) {
             (std::array<float, 3>{1, -1, -1}));
 }
 
+TEST(LoadGltf, IndicesMayBeSparseAlone) {
+  GltfDocument document;
+  document.json["accessors"].push_back({{"componentType", 5123}, {"type", "SCALAR"}, {"count", 3}});
+  document.Primitive()["indices"] = 2;
+  document.json["accessors"][2]["sparse"] = {
+      {"count", 2},
+      {"indices", {{"bufferView", document.AddView<uint8_t>({1, 2})}, {"componentType", 5121}}},
+      {"values", {{"bufferView", document.AddView<uint16_t>({2, 1})}}}};
+  const absl::StatusOr<Scene> scene = document.Load();
+  ASSERT_TRUE(scene.ok()) << scene.status();
+  EXPECT_EQ(Triangles(*scene)[0], (std::array<Vec3, 3>{Vec3{}, Vec3{0, 1, 0}, Vec3{1, 0, 0}}));
+}
+
 TEST(LoadGltf, UnusedVerticesCostNothing) {
   GltfDocument document;
   std::vector<float> many(3 * 50'000, std::nanf(""));
