@@ -130,7 +130,8 @@ absl::StatusOr<std::string> EncodeLitGlb(const Scene& scene, const PatchSet& pat
   AddAtlasNodes(scene, patches, atlas, parts, view, make_primitive, writer);
   writer.root()["asset"]["extras"] = {
       {"lightmap", "irradiance over the intensity of MOZ_lightmap"},
-      {"exposure_per_nit", std::numbers::pi * exposure.per_lm_per_m2}};
+      {"exposure_per_nit", std::numbers::pi * exposure.per_lm_per_m2},
+      {"tone_map", ToneMapName(exposure.tone_map)}};
   return writer.Finish();
 }
 

@@ -1,7 +1,7 @@
 // node check_viewers.mjs OUT NAME...: OUT/NAME.glb and OUT/NAME.lightmapped.glb, from the camera that they bring, in
-// three.js, Babylon.js and model-viewer, and OUT/NAME.lit.glb in three.js with plugins, in headless Chromium. Each picture is held against OUT/NAME.png, and written
-// beside it as NAME.KIND.VIEWER.png. Prints the mean difference over the pixels that show a surface; ends with 1
-// where one is over the bound: a picture in a wrong colour space, or without its light, differs by far more.
+// three.js, Babylon.js and model-viewer, and OUT/NAME.lit.glb in three.js with plugins, in headless Chromium. Each picture is held against OUT/NAME.png and
+// that of three.js, and written beside it as NAME.KIND.VIEWER.png. Prints the mean differences over the pixels that show a
+// surface; ends with 1 where one is over its bound: a picture in a wrong colour space, or without its light, differs by far more.
 import {spawn} from 'node:child_process';
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createServer} from 'node:http';
@@ -10,7 +10,9 @@ import {dirname, extname, join, normalize, resolve} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import {PNG} from 'pngjs';
 
-const BOUND = 0.04;           // of the range of a channel, mean over the surface's pixels
+// Of the range of a channel, mean over the surface's pixels.
+const BOUND = 0.04;           // to the picture
+const ALIKE_BOUND = 0.02;     // to that of three.js
 const PATIENCE_MS = 120_000;  // for one picture, rendered without a graphics card
 const here = dirname(fileURLToPath(import.meta.url));
 const [out, ...names] = process.argv.slice(2);
@@ -79,8 +81,8 @@ async function show(viewer, file, width, height) {
   }
 }
 
-// Mean difference over the pixels that show a surface: those that are not of our background's colour.
-function difference(ours, theirs) {
+// Mean difference over the pixels that show a surface: those where our picture is not of the background's colour.
+function difference(ours, theirs, others = ours) {
   if (ours.width !== theirs.width || ours.height !== theirs.height) {
     throw new Error(`${theirs.width} x ${theirs.height} pixels in place of ${ours.width} x ${ours.height}`);
   }
@@ -89,7 +91,7 @@ function difference(ours, theirs) {
   for (let i = 0; i < ours.data.length; i += 4) {
     if (background.every((code, c) => ours.data[i + c] === code)) continue;
     ++pixels;
-    for (let c = 0; c < 3; ++c) sum += Math.abs(ours.data[i + c] - theirs.data[i + c]) / (3 * 255);
+    for (let c = 0; c < 3; ++c) sum += Math.abs(others.data[i + c] - theirs.data[i + c]) / (3 * 255);
   }
   return sum / Math.max(pixels, 1);
 }
@@ -99,6 +101,7 @@ for (const name of names) {
   const ours = PNG.sync.read(readFileSync(join(out, `${name}.png`)));
   for (const kind of ['glb', 'lightmapped.glb', 'lit.glb']) {
     const file = `${name}.${kind}`;
+    let first;
     for (const viewer of kind === 'lit.glb' ? ['three'] : ['three', 'babylon', 'model-viewer']) {
       if (viewer === 'model-viewer' && cameraOf(join(out, file)).yfov === undefined) {
         console.log(`${file} in ${viewer}: left out, it has no orthographic camera`);
@@ -107,9 +110,11 @@ for (const name of names) {
       try {
         const theirs = await show(viewer, file, ours.width, ours.height);
         writeFileSync(join(out, `${file}.${viewer}.png`), PNG.sync.write(theirs));
-        const mean = difference(ours, theirs);
-        console.log(`${file} in ${viewer}: ${mean.toFixed(4)}${mean > BOUND ? `, over ${BOUND}` : ''}`);
-        bad ||= mean > BOUND;
+        const mean = difference(ours, theirs), apart = first ? difference(ours, theirs, first) : 0;
+        const over = (value, bound) => `${value.toFixed(4)}${value > bound ? `, over ${bound}` : ''}`;
+        console.log(`${file} in ${viewer}: ${over(mean, BOUND)}` + (first ? `; from three.js ${over(apart, ALIKE_BOUND)}` : ''));
+        bad ||= mean > BOUND || apart > ALIKE_BOUND;
+        first ??= theirs;
       } catch (error) {
         console.log(`${file} in ${viewer}: ${error.message}`);
         bad = true;
