@@ -224,7 +224,7 @@ absl::Status Bake::Write(const client::Job& job, RunRecord& record) {
 }
 
 absl::Status Bake::AddScene(RunRecord& record) {
-  if (!options_.outputs.glb && !options_.lightmap) return absl::OkStatus();
+  if (!options_.outputs.NeedPicture() && !options_.lightmap) return absl::OkStatus();
   const Keep keep = options_.lightmap ? Keep::kAppearance : Keep::kLight;
   auto scene = LoadGltf(bundle_, options_.limits, keep);
   if (!scene.ok()) return scene.status();

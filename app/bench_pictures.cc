@@ -95,7 +95,8 @@ absl::StatusOr<std::vector<std::string>> DrawPictures(const BenchResult& result,
   for (const Shown& one : shown) {
     const auto flat = FlatIrradiance(one.solution->irradiance_lx);
     for (const auto& [part, view] : {std::pair{"whole", whole}, {"detail", detail}}) {
-      picture = DrawPicture(view, patches, **scene, *one.solution, flat, kLongerSide, options);
+      picture = DrawPicture(view, patches, **scene, *one.solution, {patches, nullptr}, flat,
+                            kLongerSide, options);
       options.exposure_per_lm_per_m2 = picture.exposure.per_lm_per_m2;
       absl::Status status =
           WriteOutputFile(fmt::format("{}/{}_{}.png", folder, one.stem, part),

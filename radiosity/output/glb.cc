@@ -115,24 +115,26 @@ absl::StatusOr<std::string> EncodeGlb(const PatchSet& patches,
                                       const Exposure& exposure, const View& view,
                                       const Scene* scene) {
   const TextureLight textures(patches, corner_irradiance_lx, exposure, scene);
-  // By node, then by material of the scene; -1: vertex colours alone.
-  std::map<int32_t, std::map<int, Part>> nodes;
+  // By node, then by material of the scene (-1: vertex colours alone) and gain of its texture.
+  using Look = std::pair<int, double>;
+  std::map<int32_t, std::map<Look, Part>> nodes;
   for (PatchIndex i = 0; i < patches.size(); ++i) {
-    Part& part = nodes[patches.source[i].node][textures.MaterialOf(i)];
+    Part& part = nodes[patches.source[i].node][{textures.MaterialOf(i), textures.GainOf(i)}];
     for (int corner = 0; corner < 3; ++corner) {
       part.Add(MakeVertex(patches, corner_irradiance_lx, exposure, textures, i, corner));
     }
   }
   GlbWriter writer;
-  std::map<int, size_t> materials;  // of the scene: of the file
+  std::map<Look, size_t> materials;  // of the scene: of the file
   for (const auto& [node, parts] : nodes) {
     Json primitives = Json::array();
-    for (const auto& [material, part] : parts) {
-      const auto [known, is_new] = materials.try_emplace(material, 0);
+    for (const auto& [look, part] : parts) {
+      const auto [material, gain] = look;
+      const auto [known, is_new] = materials.try_emplace(look, 0);
       if (is_new) {
-        known->second = material < 0
-                            ? writer.Add("materials", writer.UnlitMaterial("radiosity"))
-                            : writer.Add("materials", textures.MakeMaterial(material, writer));
+        known->second =
+            material < 0 ? writer.Add("materials", writer.UnlitMaterial("radiosity"))
+                         : writer.Add("materials", textures.MakeMaterial(material, gain, writer));
       }
       primitives.push_back(AddPart(part, known->second, material >= 0, writer));
     }

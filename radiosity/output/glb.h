@@ -20,9 +20,10 @@ namespace lambert {
 // where the file would pass the 4 GiB of its format. Requires: `corner_irradiance_lx` is of these
 // patches.
 //
-// With the scene that the patches were built of, what has a base texture and does not emit keeps
-// it: there COLOR_0 is what the texture is multiplied by. Where light would take that over 1, the
-// texture is brightened by the factor that 99 % of its corners need (extras `gain`).
+// With the scene that the patches were built of, what has a base texture and does not emit, or
+// emits through the same texture, keeps it: there COLOR_0 is what the texture is multiplied by.
+// Where light would take that over 1, the texture is brightened by 1.4 to 16 (extras `gain`), where
+// that darkens the patch less.
 absl::StatusOr<std::string> EncodeGlb(const PatchSet& patches,
                                       const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
                                       const Exposure& exposure, const View& view,

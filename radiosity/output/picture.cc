@@ -14,47 +14,60 @@ constexpr Rgb kBackground{0.006, 0.007, 0.008};  // display value: near black, t
 
 constexpr double kSameSurface = 0.94;  // cosine between normals, and of the way along the surface
 
+// Surfaces cut away that a ray passes at most, and how far behind one it goes on, in diagonals of
+// the scene.
+constexpr int kMostCuts = 64;
+constexpr double kPassed = 1e-5;
+
 struct Sample {
   PatchIndex patch = kNoPatch;
   Vec3 position;  // relative to the patch set's origin
-  std::array<double, 3> weights{};
-  Rgb radiosity, irradiance, std_error, emitted;
+  Vec3 weights;   // of the patch's corners
+  TexelSurface surface;
+  Rgb radiosity, irradiance, std_error;
 };
+
+// A value between those of three corners.
+template <typename Value>
+Value Between(const std::array<Value, 3>& corners, Vec3 weights) {
+  return corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+}
 
 // Answers rays of one picture.
 class Painter {
  public:
   Painter(const View& view, const PatchSet& patches, const RayScene& scene,
-          const Solution& solution, const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx)
+          const Solution& solution, const SurfaceReader& surfaces,
+          const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx)
       : view_(view),
         patches_(patches),
         scene_(scene),
         solution_(solution),
-        corner_irradiance_lx_(corner_irradiance_lx) {}
+        surfaces_(surfaces),
+        corner_irradiance_lx_(corner_irradiance_lx),
+        passed_m_(kPassed * BoundsOf(patches).Diagonal()) {}
 
   Sample At(double x, double y) const {
-    const View::Ray ray = view_.RayThrough(x, y);
-    const PictureHit hit = scene_.Cast(ray.origin, ray.direction);
-    if (hit.patch == kNoPatch) return {};
-    Sample sample;
-    sample.patch = hit.patch;
-    sample.weights = {std::max(1 - hit.u - hit.v, 0.0), std::max(hit.u, 0.0), std::max(hit.v, 0.0)};
-    Rgb irradiance;
-    for (int corner = 0; corner < 3; ++corner) {
-      const double weight = sample.weights[corner];
-      sample.position = sample.position + patches_.corners[hit.patch][corner] * weight;
-      irradiance = irradiance + corner_irradiance_lx_[hit.patch][corner] * weight;
+    View::Ray ray = view_.RayThrough(x, y);
+    for (int passed = 0; passed < kMostCuts; ++passed) {
+      const PictureHit hit = scene_.Cast(ray.origin, ray.direction);
+      if (hit.patch == kNoPatch) break;
+      const Vec3 weights{std::max(1 - hit.u - hit.v, 0.0), std::max(hit.u, 0.0),
+                         std::max(hit.v, 0.0)};
+      if (const auto surface = surfaces_.At(hit.patch, weights)) {
+        return SampleAt(hit.patch, weights, *surface);
+      }
+      ray.origin =
+          Between(patches_.corners[hit.patch], weights) + Normalized(ray.direction) * passed_m_;
     }
-    sample.emitted = patches_.exitance_lm_per_m2[hit.patch];
-    sample.std_error = solution_.std_error_lm_per_m2[hit.patch];
-    Light(irradiance, sample);
-    return sample;
+    return {};
   }
 
   // Gives a sample another irradiance. Requires: it is of a patch.
   void Light(Rgb irradiance_lx, Sample& sample) const {
     sample.irradiance = irradiance_lx;
-    sample.radiosity = sample.emitted + patches_.reflectance[sample.patch] * irradiance_lx;
+    sample.radiosity =
+        sample.surface.exitance_lm_per_m2 + sample.surface.reflectance * irradiance_lx;
   }
 
   // Gives the sample of a pixel what was gathered at the nearest middle on its surface.
@@ -82,11 +95,20 @@ class Painter {
   void SetGathered(std::vector<Sample> middles) { gathered_ = std::move(middles); }
 
  private:
+  Sample SampleAt(PatchIndex patch, Vec3 weights, const TexelSurface& surface) const {
+    Sample sample{patch, Between(patches_.corners[patch], weights), weights, surface, {}, {}, {}};
+    sample.std_error = solution_.std_error_lm_per_m2[patch];
+    Light(Between(corner_irradiance_lx_[patch], weights), sample);
+    return sample;
+  }
+
   const View& view_;
   const PatchSet& patches_;
   const RayScene& scene_;
   const Solution& solution_;
+  const SurfaceReader& surfaces_;
   const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx_;
+  const double passed_m_;
   std::vector<Sample> gathered_;  // of the middles; empty: corner irradiance is all there is
 };
 
@@ -128,8 +150,8 @@ void DrawMiddles(const std::vector<Sample>& samples, const PictureOptions& optio
     picture.radiosity_lm_per_m2[pixel] = sample.radiosity;
     picture.irradiance_lx[pixel] = sample.irradiance;
     picture.std_error_lm_per_m2[pixel] = sample.std_error;
-    reflected.push_back(sample.radiosity - sample.emitted);
-    emitted.push_back(sample.emitted);
+    reflected.push_back(sample.surface.reflectance * sample.irradiance);
+    emitted.push_back(sample.surface.exitance_lm_per_m2);
   }
   picture.exposure = options.exposure_per_lm_per_m2 > 0 ? Exposure{options.exposure_per_lm_per_m2}
                                                         : ChooseExposure(reflected, emitted);
@@ -197,12 +219,12 @@ void RefineRoughPixels(const Painter& painter, Picture& picture) {
 }  // namespace
 
 Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& scene,
-                    const Solution& solution,
+                    const Solution& solution, const SurfaceReader& surfaces,
                     const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx, int longer_side,
                     const PictureOptions& options) {
   Picture picture;
   SetSize(view, longer_side, picture);
-  const Painter painter(view, patches, scene, solution, corner_irradiance_lx);
+  const Painter painter(view, patches, scene, solution, surfaces, corner_irradiance_lx);
   DrawMiddles(SeeMiddles(painter, picture), options, picture);
   RefineRoughPixels(painter, picture);
   return picture;
@@ -210,21 +232,17 @@ Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& s
 
 absl::StatusOr<Picture> DrawGatheredPicture(
     const View& view, const PatchSet& patches, const RayScene& scene, const Solution& solution,
-    const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
+    const SurfaceReader& surfaces, const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
     const std::vector<std::array<Vec3, 3>>& corner_normals, const GatherFunction& gather,
     int longer_side, const PictureOptions& options) {
   Picture picture;
   SetSize(view, longer_side, picture);
-  Painter painter(view, patches, scene, solution, corner_irradiance_lx);
+  Painter painter(view, patches, scene, solution, surfaces, corner_irradiance_lx);
   std::vector<Sample> samples = SeeMiddles(painter, picture);
   GatherPoints points;
   for (const Sample& sample : samples) {
     if (sample.patch == kNoPatch) continue;
-    Vec3 normal;
-    for (int corner = 0; corner < 3; ++corner) {
-      normal = normal + corner_normals[sample.patch][corner] * sample.weights[corner];
-    }
-    points.Add(sample.position, Normalized(normal));
+    points.Add(sample.position, Normalized(Between(corner_normals[sample.patch], sample.weights)));
   }
   const absl::StatusOr<Gathered> gathered = gather(points);
   if (!gathered.ok()) return gathered.status();

@@ -7,6 +7,7 @@
 #include "absl/status/statusor.h"
 #include "radiosity/gather/gather_points.h"
 #include "radiosity/output/exposure.h"
+#include "radiosity/output/surface_reader.h"
 #include "radiosity/output/view.h"
 #include "radiosity/patch/patch_set.h"
 #include "radiosity/solve/solution.h"
@@ -30,9 +31,10 @@ inline constexpr int kPictureSide = 960;  // pixels
 
 // Draws a picture whose longer side has `longer_side` pixels: one ray a pixel, 16 where neighbours
 // differ. Irradiance is interpolated between corners (`corner_irradiance_lx`, from
-// SmoothIrradiance); reflectance and exitance stay the patch's.
+// SmoothIrradiance); what is reflected and emitted is what `surfaces` says of the very point, and
+// what it says is cut away is seen through.
 Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& scene,
-                    const Solution& solution,
+                    const Solution& solution, const SurfaceReader& surfaces,
                     const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
                     int longer_side = kPictureSide, const PictureOptions& options = {});
 
@@ -42,7 +44,7 @@ Picture DrawPicture(const View& view, const PatchSet& patches, const RayScene& s
 // `gather` does.
 absl::StatusOr<Picture> DrawGatheredPicture(
     const View& view, const PatchSet& patches, const RayScene& scene, const Solution& solution,
-    const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
+    const SurfaceReader& surfaces, const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
     const std::vector<std::array<Vec3, 3>>& corner_normals, const GatherFunction& gather,
     int longer_side = kPictureSide, const PictureOptions& options = {});
 

@@ -20,21 +20,25 @@ class TextureLight {
   TextureLight(const PatchSet& patches, const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx,
                const Exposure& exposure, const Scene* scene);
 
-  // The material whose base texture patch i shows, or -1: it has none, or it emits.
+  // The material whose base texture patch i shows, or -1: it has none, or emits otherwise than
+  // through it.
   int MaterialOf(PatchIndex i) const { return material_[i]; }
+  // How much brighter than it is the texture has to be there: 1 to 16.
+  double GainOf(PatchIndex i) const { return gain_[i]; }
 
   struct Corner {
-    Rgb color;  // times the texture: the picture; over 1 where the gain is too small
+    Rgb color;  // times the brighter texture: the picture; over 1 where the gain is too small
     double alpha = 1;
     Uv uv{};  // of the texture as MakeMaterial stores it
   };
   // Requires: MaterialOf(i) >= 0.
   Corner At(PatchIndex i, int corner) const;
 
-  // An unlit material with the texture, times the gain of its light (in its extras).
-  GlbWriter::Json MakeMaterial(int material, GlbWriter& writer) const;
+  // An unlit material with the texture times a gain (in its extras).
+  GlbWriter::Json MakeMaterial(int material, double gain, GlbWriter& writer) const;
 
  private:
+  double ChooseGain(PatchIndex i) const;
   Corner Ungained(PatchIndex i, int corner) const;
 
   const PatchSet& patches_;
@@ -44,7 +48,7 @@ class TextureLight {
   PlacedScene placed_;
   std::vector<int32_t> triangle_;  // by patch
   std::vector<int> material_;      // by patch
-  std::vector<double> gain_;       // by material
+  std::vector<double> gain_;       // by patch
 };
 
 }  // namespace lambert

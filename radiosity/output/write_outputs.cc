@@ -28,10 +28,11 @@ absl::StatusOr<Lit> LightPicture(const View& view, const RunRecord& record, cons
   const PatchSet& patches = *record.patches;
   const Solution& solution = *record.snapshot.solution;
   const CornerFans fans = FindCornerFans(patches, scene);
+  const SurfaceReader surfaces(patches, record.scene.get());
   Lit lit;
   if (gather == nullptr) {
     lit.corners = SmoothIrradiance(patches, fans, solution.irradiance_lx);
-    lit.picture = DrawPicture(view, patches, scene, solution, lit.corners, kPictureSide,
+    lit.picture = DrawPicture(view, patches, scene, solution, surfaces, lit.corners, kPictureSide,
                               record.picture_options);
     return lit;
   }
@@ -39,8 +40,8 @@ absl::StatusOr<Lit> LightPicture(const View& view, const RunRecord& record, cons
   absl::StatusOr<CornerLight> corners = GatherCorners(patches, fans, normals, gather);
   if (!corners.ok()) return corners.status();
   absl::StatusOr<Picture> picture =
-      DrawGatheredPicture(view, patches, scene, solution, *corners, normals, gather, kPictureSide,
-                          record.picture_options);
+      DrawGatheredPicture(view, patches, scene, solution, surfaces, *corners, normals, gather,
+                          kPictureSide, record.picture_options);
   if (!picture.ok()) return picture.status();
   return Lit{*std::move(corners), normals, *std::move(picture)};
 }

@@ -53,8 +53,9 @@ TEST(GatheredLight, AShadowIsSharperThanThePatches) {
   lit.solution.radiosity_lm_per_m2 = lit.patches->exitance_lm_per_m2;
   const View view = ChooseView(*lit.patches, *lit.scene, lit.solution.radiosity_lm_per_m2);
   const auto corners = *GatherCorners(*lit.patches, lit.fans, lit.normals, lit.Gather(64));
-  const auto picture = *DrawGatheredPicture(view, *lit.patches, *lit.scene, lit.solution, corners,
-                                            lit.normals, lit.Gather(64), 120);
+  const auto picture =
+      *DrawGatheredPicture(view, *lit.patches, *lit.scene, lit.solution, {*lit.patches, nullptr},
+                           corners, lit.normals, lit.Gather(64), 120);
   // Each pixel of the floor is in full light, in the dark, or in a narrow penumbra.
   int dark = 0, bright = 0, between = 0;
   for (size_t pixel = 0; pixel < picture.patch.size(); ++pixel) {
@@ -85,8 +86,8 @@ TEST(GatheredLight, FailsAsItsGatherDoes) {
   EXPECT_FALSE(GatherCorners(*lit.patches, lit.fans, lit.normals, fails).ok());
   const View view = ChooseView(*lit.patches, *lit.scene, lit.solution.radiosity_lm_per_m2);
   const std::vector<std::array<Rgb, 3>> corners(lit.patches->size());
-  EXPECT_FALSE(DrawGatheredPicture(view, *lit.patches, *lit.scene, lit.solution, corners,
-                                   lit.normals, fails, 40)
+  EXPECT_FALSE(DrawGatheredPicture(view, *lit.patches, *lit.scene, lit.solution,
+                                   {*lit.patches, nullptr}, corners, lit.normals, fails, 40)
                    .ok());
 }
 

@@ -6,11 +6,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "radiosity/output/glb.h"
 #include "radiosity/output/output_file.h"
 #include "radiosity/output/smooth.h"
 #include "radiosity/output/texture_image.h"
+#include "radiosity/output/texture_light.h"
 #include "radiosity/output/write_outputs.h"
 #include "radiosity/patch/texture_mean.h"
 #include "radiosity/scene/load_gltf.h"
@@ -194,6 +196,28 @@ TEST(EncodeGlb, BaseTexturesStaySharp) {
     ExpectClose(seen, ExpectedAt(p, normal, exposure), 0.1, p);
   });
   EXPECT_EQ(textured, 128);
+}
+
+TEST(EncodeGlb, WhatShinesThroughItsBaseTextureStaysSharpToo) {
+  Scene scene = TexturedScene();
+  scene.materials[0].luminance = {0.5, 0.5, 0.5};
+  scene.materials[0].luminance_texture = scene.materials[0].reflectance_texture;
+  const RunRecord record = RecordOf(PatchesOf(scene), [](Vec3) { return Rgb{2, 2, 2}; });
+  const Exposure exposure{0.2};
+  const std::vector<std::array<Rgb, 3>> light(record.patches->size(),
+                                              {Rgb{2, 2, 2}, Rgb{2, 2, 2}, Rgb{2, 2, 2}});
+  const std::string path = TestFolder() + "/room.glb";
+  const absl::StatusOr<std::string> bytes = EncodeGlb(*record.patches, light, exposure, {}, &scene);
+  ASSERT_TRUE(bytes.ok()) << bytes.status();
+  ASSERT_TRUE(WriteOutputFile(path, *bytes).ok());
+  ForEachMiddle(Reloaded(path), 0, [&](Vec3 p, Vec3 normal, Rgb seen) {
+    if (std::fabs(normal.y) < 0.5) return;
+    const double texel = p.x < 0.5 ? 0.2 : 0.6, sent = texel * (0.5 * std::numbers::pi + 2);
+    ExpectClose(seen, Develop({sent, sent, sent}, exposure), 0.03, p);
+  });
+  scene.materials[0].luminance_texture.uv_set = 1;
+  const TextureLight otherwise(*record.patches, light, exposure, &scene);
+  EXPECT_EQ(otherwise.MaterialOf(0), -1);
 }
 
 TEST(EncodeTexture, AGainMakesItBrighter) {

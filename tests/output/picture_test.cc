@@ -17,7 +17,7 @@ Picture Draw(const PatchSet& patches, const std::function<Rgb(Vec3)>& irradiance
   EXPECT_TRUE(scene.ok());
   const Solution solution = LitBy(patches, irradiance_lx);
   return DrawPicture(
-      CameraView(patches.cameras[0]), patches, **scene, solution,
+      CameraView(patches.cameras[0]), patches, **scene, solution, {patches, nullptr},
       SmoothIrradiance(patches, FindCornerFans(patches, **scene), solution.irradiance_lx),
       longer_side);
 }
@@ -55,7 +55,7 @@ TEST(DrawPicture, AnExposureThatIsGivenIsKept) {
   ASSERT_TRUE(scene.ok());
   const Solution solution = LitBy(patches, [](Vec3) { return Rgb{8, 8, 8}; });
   const Picture picture =
-      DrawPicture(CameraView(patches.cameras[0]), patches, **scene, solution,
+      DrawPicture(CameraView(patches.cameras[0]), patches, **scene, solution, {patches, nullptr},
                   FlatIrradiance(solution.irradiance_lx), 60, {ToneMap::kLinear, 0.125});
   EXPECT_EQ(picture.exposure.per_lm_per_m2, 0.125);
   EXPECT_EQ(picture.exposure.tone_map, ToneMap::kLinear);
@@ -67,8 +67,9 @@ TEST(DrawPicture, FlatIrradianceShowsEveryPatchAsItWasSolved) {
   const auto scene = RayScene::Create(patches);
   ASSERT_TRUE(scene.ok());
   const Solution solution = LitBy(patches, [](Vec3 p) { return Rgb{9 + p.x, 9 + p.y, 9}; });
-  const Picture picture = DrawPicture(CameraView(patches.cameras[0]), patches, **scene, solution,
-                                      FlatIrradiance(solution.irradiance_lx), 60);
+  const Picture picture =
+      DrawPicture(CameraView(patches.cameras[0]), patches, **scene, solution, {patches, nullptr},
+                  FlatIrradiance(solution.irradiance_lx), 60);
   for (size_t pixel = 0; pixel < picture.patch.size(); ++pixel) {
     if (picture.patch[pixel] == kNoPatch) continue;
     EXPECT_NEAR(picture.irradiance_lx[pixel].g, solution.irradiance_lx[picture.patch[pixel]].g,
