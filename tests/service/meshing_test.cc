@@ -19,8 +19,8 @@ struct Serial {
 };
 
 Solution Solve(const std::shared_ptr<const PatchSet>& patches, const SolveOptions& options,
-               int64_t* rays) {
-  const Plan plan = MakePlan(*patches, options);
+               bool adapted, int64_t* rays) {
+  const Plan plan = MakePlan(*patches, options, adapted);
   SerialExecutor executor(*Shooter::Create(patches, plan.options.shoot));
   Solver solver(patches, plan.options, [] { return 0.0; });
   while (solver.stop_reason() == StopReason::kNone) {
@@ -42,13 +42,13 @@ Serial SolveSerially() {
       scene, patch, options,
       [&](const std::shared_ptr<const PatchSet>& patches, const SolveOptions& pilot,
           int32_t) -> absl::StatusOr<Solution> {
-        Solution solution = Solve(patches, pilot, &serial.meshing.pilot_rays);
+        Solution solution = Solve(patches, pilot, false, &serial.meshing.pilot_rays);
         serial.pilots.push_back(EncodeSolution(solution));
         return solution;
       },
       &serial.meshing);
   int64_t rays = 0;
-  serial.solution = EncodeSolution(Solve(serial.patches, options, &rays));
+  serial.solution = EncodeSolution(Solve(serial.patches, options, true, &rays));
   return serial;
 }
 
