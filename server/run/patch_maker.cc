@@ -17,10 +17,11 @@ absl::StatusOr<std::shared_ptr<const PatchSet>> PatchMaker::Make(const JobOption
   absl::StatusOr<Scene> scene = parts_.scenes->Load(record.scene(), job_.owner());
   if (!scene.ok()) return scene.status();
   if (adapts) return Adapt(*scene, options);
-  absl::StatusOr<PatchSet> patches = BuildPatches(*scene, options.patch);
-  if (!patches.ok()) return patches.status();
-  if (absl::Status stored = Store(*patches); !stored.ok()) return stored;
-  return std::make_shared<const PatchSet>(*std::move(patches));
+  absl::StatusOr<PatchSet> built = BuildPatches(*scene, options.patch);
+  if (!built.ok()) return built.status();
+  const auto patches = std::make_shared<const PatchSet>(*std::move(built));
+  if (absl::Status stored = Store(patches); !stored.ok()) return stored;
+  return patches;
 }
 
 absl::StatusOr<std::shared_ptr<const PatchSet>> PatchMaker::ReadBack(
@@ -41,7 +42,7 @@ absl::StatusOr<std::shared_ptr<const PatchSet>> PatchMaker::Adapt(const Scene& s
       AdaptMesh(scene, options.patch, options.solve, run, &meshing_);
   if (!patches.ok()) return patches.status();
   meshing_.seconds = ToSeconds(parts_.clock() - began);
-  if (absl::Status stored = Store(**patches); !stored.ok()) return stored;
+  if (absl::Status stored = Store(*patches); !stored.ok()) return stored;
   job_.Update([&](v1::SolveJob& record) { *record.mutable_meshing() = EncodeMeshing(meshing_); });
   best_.reset();
   return patches;
@@ -49,7 +50,7 @@ absl::StatusOr<std::shared_ptr<const PatchSet>> PatchMaker::Adapt(const Scene& s
 
 absl::StatusOr<std::optional<PilotResult>> PatchMaker::TakeBest() {
   if (!best_.has_value()) return std::nullopt;
-  if (absl::Status stored = Store(*best_->patches); !stored.ok()) return stored;
+  if (absl::Status stored = Store(best_->patches); !stored.ok()) return stored;
   meshing_.reason = "it was stopped";
   best_->plan.items.push_back(TellMeshing(meshing_, best_->patches->size()));
   return std::exchange(best_, std::nullopt);
@@ -57,7 +58,7 @@ absl::StatusOr<std::optional<PilotResult>> PatchMaker::TakeBest() {
 
 absl::StatusOr<Solution> PatchMaker::RunPilot(const std::shared_ptr<const PatchSet>& patches,
                                               const SolveOptions& pilot) {
-  if (absl::Status stored = Store(*patches); !stored.ok()) return stored;
+  if (absl::Status stored = Store(patches); !stored.ok()) return stored;
   const Plan plan = MakePlan(*patches, pilot);
   Solver solver(patches, plan.options,
                 [this] { return ToSeconds(parts_.clock().time_since_epoch()); });
@@ -78,8 +79,9 @@ absl::StatusOr<Solution> PatchMaker::RunPilot(const std::shared_ptr<const PatchS
   return *best_->snapshot.solution;
 }
 
-absl::Status PatchMaker::Store(const PatchSet& patches) {
-  std::string bytes = EncodePatchSet(patches);
+absl::Status PatchMaker::Store(const std::shared_ptr<const PatchSet>& patches) {
+  if (stored_.lock() == patches) return absl::OkStatus();
+  std::string bytes = EncodePatchSet(*patches);
   v1::Digest digest;
   digest.set_sha256(Sha256Hex(bytes));
   digest.set_size_bytes(static_cast<int64_t>(bytes.size()));
@@ -94,6 +96,7 @@ absl::Status PatchMaker::Store(const PatchSet& patches) {
   const v1::Digest old = job_.Get().patch_set_digest();
   job_.Update([&](v1::SolveJob& record) { *record.mutable_patch_set_digest() = digest; });
   if (!old.sha256().empty()) parts_.refs->Release(old.sha256());
+  stored_ = patches;
   return absl::OkStatus();
 }
 

@@ -41,14 +41,16 @@ class PatchMaker {
                                                         const JobOptions& options);
   absl::StatusOr<Solution> RunPilot(const std::shared_ptr<const PatchSet>& patches,
                                     const SolveOptions& pilot);
-  // Puts the set in the place of the one that the job has, if any.
-  absl::Status Store(const PatchSet& patches);
+  // Puts the set in the place of the one that the job has, if any. Does nothing where it is that
+  // one: the last pilot's often is the job's.
+  absl::Status Store(const std::shared_ptr<const PatchSet>& patches);
 
   const RunnerParts& parts_;
   Job& job_;
   Journal& journal_;
   Meshing meshing_;
   std::optional<PilotResult> best_;
+  std::weak_ptr<const PatchSet> stored_;  // the last one
 };
 
 }  // namespace lambert::server
