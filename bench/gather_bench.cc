@@ -6,7 +6,8 @@
 // seeds, the second split to edges half again as long. Errors are RMS over the points of
 // reflectance times irradiance, over the mean of that. RAYS: of each of the solutions (2e7).
 // SPLIT: others whose solutions are compared, as they are and gathered from with 1,024 rays: an
-// edge in metres, "cut" for crossings alone (patch/cut_crossings.h), or "adapt=PATCHES".
+// edge in metres, "cut" for crossings alone (patch/cut_crossings.h), or "adapt=PATCHES". All are by
+// the method walk.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -59,7 +60,7 @@ Solved SolveWith(std::shared_ptr<const PatchSet> patches, const SolveOptions& op
 
 SolveOptions Options(uint64_t seed, int64_t rays) {
   SolveOptions options;
-  options.shoot.method = Method::kPmcr;
+  options.shoot.method = Method::kWalk;
   options.seed = seed;
   options.max_rays = rays;
   return options;
