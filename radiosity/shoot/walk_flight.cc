@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
 
-#include "radiosity/exact/balance.h"
+#include "radiosity/core/error.h"
 
 namespace lambert {
 namespace {
@@ -43,7 +44,11 @@ void WalkFlight::Land() {
     const int left = Survive(rays, stream);
     rays_without_loss_ = left < rays ? 0 : rays_without_loss_ + left;
     if (rays_without_loss_ >= kRaysWithoutLoss) {
-      Fail(SingularBalance());
+      Fail(MakeError(
+          absl::StatusCode::kFailedPrecondition,
+          {"SINGULAR_CLOSED_RHO_1", "scene",
+           "light was reflected " + std::to_string(kRaysWithoutLoss) + " times without any loss",
+           "give some material a reflectance under 1, or use --method pmcr"}));
       return;
     }
     for (int k = 0; k < left; ++k) SetFlux(k, Share(whole_[k], share_[k]), ray_[k]);
