@@ -77,7 +77,7 @@ absl::Status OpenAttribute(const tinygltf::Model& model, const tinygltf::Primiti
 }
 
 // Adds what is kept beside what light needs: what cannot be read of it is left out.
-void OpenAppearance(const tinygltf::Model& model, const tinygltf::Primitive& gltf,
+void OpenAppearance(const tinygltf::Model& model, const tinygltf::Primitive& gltf, const Pose& pose,
                     Attributes* attributes) {
   constexpr int kMostUvSets = 8;
   for (int set = 0; set < kMostUvSets; ++set) {
@@ -87,7 +87,7 @@ void OpenAppearance(const tinygltf::Model& model, const tinygltf::Primitive& glt
                         *attributes, "", &uv);
     if (uv && uv->count() >= attributes->positions->count()) attributes->uv.emplace(set, *uv);
   }
-  attributes->shading.emplace(model, gltf, attributes->positions->count());
+  attributes->shading.emplace(model, gltf, attributes->positions->count(), pose.weights);
 }
 
 // COLOR_0 has three components or four.
@@ -252,7 +252,7 @@ absl::StatusOr<Primitive> ReadPrimitive(const tinygltf::Model& model,
   absl::StatusOr<Attributes> attributes =
       OpenAttributes(model, gltf, UvSets(materials, gltf.material), where);
   if (!attributes.ok()) return attributes.status();
-  if (keep == Keep::kAppearance) OpenAppearance(model, gltf, &*attributes);
+  if (keep == Keep::kAppearance) OpenAppearance(model, gltf, pose, &*attributes);
   const uint64_t count = TriangleCount(gltf.mode, attributes->ListedVertices());
   if (count > static_cast<uint64_t>(budget->triangles)) {
     return MakeError(absl::StatusCode::kInvalidArgument,

@@ -45,7 +45,7 @@ class PosedPositions {
   // Vertex `i` in the pose; it may be not finite. SceneError for joints that do not exist.
   // Requires: i in range of the positions.
   absl::StatusOr<std::array<float, 3>> At(uint32_t i, const std::string& where) const;
-  // Where the joints of vertex `i` turn a direction, not of length 1; morph targets turn nothing.
+  // Where the joints of vertex `i` turn a direction, not of length 1.
   // Errors and requirements as of At.
   absl::StatusOr<Vec3> Turn(uint32_t i, Vec3 direction, const std::string& where) const;
 

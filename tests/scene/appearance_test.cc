@@ -72,6 +72,28 @@ TEST(Appearance, WhatIsBadIsLeftOut) {
   EXPECT_TRUE(scene->meshes[0].primitives[0].normals.empty());
 }
 
+// Half of a target that leans normals towards x, and tangents away from z; length 1 comes after.
+TEST(Appearance, MorphTargetsMoveNormalsAndTangents) {
+  GltfDocument document = Shaded();
+  const auto all = [&document](float x, float y, float z) {
+    return document.AddAccessor<float>({x, y, z, x, y, z, x, y, z}, kFloat, "VEC3", 3);
+  };
+  document.Primitive()["targets"] = {
+      {{"POSITION", all(0, 0, 1)}, {"NORMAL", all(2, 0, 0)}, {"TANGENT", all(0, 0, -2)}},
+      {{"POSITION", all(0, 0, 1)}, {"NORMAL", all(0, 9, 0)}}};
+  document.json["meshes"][0]["weights"] = {0.5, 0};
+  const absl::StatusOr<Scene> scene = LoadAll(document);
+  ASSERT_TRUE(scene.ok()) << scene.status();
+  const Primitive& primitive = scene->meshes[0].primitives[0];
+  ASSERT_EQ(primitive.normals.size(), 3u);
+  const float half = std::sqrt(0.5f);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(primitive.normals[1][axis], (std::array<float, 3>{half, 0, half})[axis], 1e-6);
+    EXPECT_NEAR(primitive.tangents[1][axis], (std::array<float, 3>{half, 0, -half})[axis], 1e-6);
+  }
+  EXPECT_EQ(primitive.tangents[1][3], -1);
+}
+
 // A joint that turns by 90 degrees about x takes normals along.
 TEST(Appearance, NormalsTurnWithTheirJoints) {
   GltfDocument document = Shaded();
