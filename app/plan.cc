@@ -115,10 +115,10 @@ absl::StatusOr<client::PlannedScene> MakePlanned(const SceneBundle& bundle, cons
   if (!patches.ok()) return patches.status();
   if (absl::Status status = CheckReference(*patches, options); !status.ok()) return status;
   if (!here) return PlanThere(bundle, options, interrupt);
-  if (absl::Status status = ValidateFor(*patches, options.solve); !status.ok()) {
+  const bool adapted = options.patch.adapt_patches > 0;
+  if (absl::Status status = ValidateFor(*patches, options.solve, adapted); !status.ok()) {
     return status;
   }
-  const bool adapted = options.patch.adapt_patches > 0;
   client::PlannedScene planned{MakePlan(*patches, options.solve, adapted), patches->warnings};
   AddMeshing(*patches, options.patch, planned.plan);
   return planned;

@@ -139,11 +139,12 @@ absl::StatusOr<v1::PlanSceneResponse> Coordinator::PlanScene(const Identity& who
   if (!scene.ok()) return scene.status();
   absl::StatusOr<PatchSet> patches = BuildPatches(*scene, options->patch);
   if (!patches.ok()) return patches.status();
-  if (absl::Status status = ValidateFor(*patches, options->solve); !status.ok()) {
+  const bool adapted = options->patch.adapt_patches > 0;
+  if (absl::Status status = ValidateFor(*patches, options->solve, adapted); !status.ok()) {
     return status;
   }
   v1::PlanSceneResponse response;
-  Plan plan = MakePlan(*patches, options->solve, options->patch.adapt_patches > 0);
+  Plan plan = MakePlan(*patches, options->solve, adapted);
   AddMeshing(*patches, options->patch, plan);
   *response.mutable_plan() = EncodePlan(plan, request.spec());
   for (const Warning& warning : patches->warnings) {

@@ -75,12 +75,12 @@ absl::Status Refused(const char* option, Part part, const std::string& why) {
 
 }  // namespace
 
-absl::Status ValidateFor(const PatchSet& patches, const SolveOptions& options) {
+absl::Status ValidateFor(const PatchSet& patches, const SolveOptions& options, bool adapted) {
   if (absl::Status status = ValidateFor(patches, options.shoot); !status.ok()) return status;
   const Parts& asked = options.shoot.parts;
   if (asked == Parts{}) return absl::OkStatus();
   SolveOptions solve = options;
-  solve.shoot.method = ResolveMethod(patches, options, /*adapted=*/false).method;
+  solve.shoot.method = ResolveMethod(patches, options, adapted).method;
   PartSet there;
   for (const Need& need : FindNeeds(patches, solve)) {
     there.Add(need.part);

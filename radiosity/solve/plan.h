@@ -32,10 +32,11 @@ struct Plan {
 
 // FIELD_INVALID where options that are valid do not fit this scene: as that of ShootOptions says
 // (radiosity/shoot/importance.h), or where a part is asked for that cannot be had, or left out that
-// cannot be left out.
-absl::Status ValidateFor(const PatchSet& patches, const SolveOptions& options);
+// cannot be left out. `adapted`: ChooseMethod's.
+absl::Status ValidateFor(const PatchSet& patches, const SolveOptions& options,
+                         bool adapted = false);
 
-// Requires: ValidateFor is OK. `adapted`: ChooseMethod's.
+// Requires: ValidateFor is OK with these.
 Plan MakePlan(const PatchSet& patches, const SolveOptions& options, bool adapted = false);
 
 // Requires: options of a plan.

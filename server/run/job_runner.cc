@@ -57,10 +57,11 @@ absl::Status JobRunner::Solve(Job& job, Journal& journal) {
   if (!options.ok()) return options.status();
   absl::StatusOr<std::shared_ptr<const PatchSet>> patches = MakePatches(job, journal, *options);
   if (!patches.ok()) return patches.status();
-  if (absl::Status status = ValidateFor(**patches, options->solve); !status.ok()) {
+  const bool adapted = options->patch.adapt_patches > 0;
+  if (absl::Status status = ValidateFor(**patches, options->solve, adapted); !status.ok()) {
     return status;
   }
-  Plan plan = MakePlan(**patches, options->solve, options->patch.adapt_patches > 0);
+  Plan plan = MakePlan(**patches, options->solve, adapted);
   SolveOptions solve = plan.options;
   if (const v1::SolveJob record = job.Get(); record.has_meshing()) {
     const Meshing meshing = DecodeMeshing(record.meshing());

@@ -195,6 +195,15 @@ TEST(ValidateFor, RefusesPartsThatCannotBeOtherwiseAndSaysWhy) {
   }
 }
 
+TEST(ValidateFor, LooksAtTheMethodThatAdaptedPatchesGet) {
+  const PatchSet patches = PatchesOf(MakeCornell(20));
+  const SolveOptions options = Asked(Method::kAuto, {Part::kAmbient});
+  ASSERT_EQ(MakePlan(patches, Asked(Method::kAuto, {}), true).options.shoot.method, Method::kWalk);
+  EXPECT_TRUE(ValidateFor(patches, options).ok());
+  const absl::Status refused = ValidateFor(patches, options, /*adapted=*/true);
+  EXPECT_NE(refused.message().find("walk has no such part"), std::string::npos) << refused;
+}
+
 TEST(MakePlan, SizesGrowWithTheSceneAndTheFirstPassFitsTheBudget) {
   const PatchSet small = PatchesOf(MakeCornell(1)), large = PatchesOf(MakeCornell(20));
   const Plan a = MakePlan(small, {}), b = MakePlan(large, {});
