@@ -17,7 +17,9 @@ constexpr double kShareOfError = 0.8;  // that the patches have which are split 
 // evenly, half where it has a step.
 constexpr double kLostBySplit = 2.0 / 3;
 constexpr double kLeastGrowth = 1.05;  // of the patches: less is not worth a pilot
-constexpr int32_t kMaxPilots = 16, kPilotShare = 4 * kMaxPilots;
+constexpr int32_t kMaxPilots = 16;
+constexpr int32_t kAdaptShare = 4;  // a quarter of rays and time is for pilots
+constexpr int32_t kPilotShare = kAdaptShare * kMaxPilots;
 constexpr int64_t kRaysOfPatch = 256;  // of a pilot: neighbours that differ by a third are told
 constexpr int64_t kLeastRays = 1 << 18, kMostRays = 1 << 23;
 constexpr int64_t kCutShare = 3;             // of the budget that is left: for crossings, a third
@@ -80,7 +82,8 @@ std::string WhyNone(const PatchSet& coarse, const PatchOptions& options) {
 }
 
 // Why no pilot follows; "" where one does. `spent`: the budget of patches, 0 while some is left.
-std::string WhyEnough(const Meshing& meshing, double wanted, int64_t spent) {
+std::string WhyEnough(const Meshing& meshing, const SolveOptions& solve, int64_t spent) {
+  const double wanted = WantedError(solve);
   const std::string error =
       Text("light varies inside patches by about %.2g %%", 100 * meshing.predicted_error);
   if (meshing.predicted_error <= wanted) {
@@ -88,6 +91,9 @@ std::string WhyEnough(const Meshing& meshing, double wanted, int64_t spent) {
   }
   if (spent > 0) {
     return Text("the budget of %lld patches is spent; ", static_cast<long long>(spent)) + error;
+  }
+  if (solve.max_time_s > 0 && kAdaptShare * meshing.seconds >= solve.max_time_s) {
+    return Text("a quarter of the time of %.3g s is spent; ", solve.max_time_s) + error;
   }
   if (meshing.pilots < kMaxPilots) return "";
   return Text("%d pilots are the most there are; ", kMaxPilots) + error;
@@ -203,7 +209,7 @@ absl::StatusOr<std::shared_ptr<const PatchSet>> AdaptMesh(const Scene& scene,
     }
     const double could_be = kLeastGrowth * static_cast<double>(patches->size());
     const bool is_spent = !is_split || could_be > static_cast<double>(budget);
-    meshing->reason = WhyEnough(*meshing, wanted, is_spent ? budget : 0);
+    meshing->reason = WhyEnough(*meshing, solve, is_spent ? budget : 0);
   }
   return patches;
 }

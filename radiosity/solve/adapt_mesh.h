@@ -24,7 +24,7 @@ struct Meshing {
   int32_t pilots = 0;           // solutions that it was guided by
   int64_t pilot_rays = 0;       // of all of them
   double predicted_error = -1;  // of the patches as they are then, as MeshError::rms_area
-  double seconds = 0;           // wall clock
+  double seconds = 0;           // wall clock, where the caller keeps it
   std::string reason;           // why it ended: one sentence
 };
 
@@ -42,8 +42,9 @@ using RunPilot = absl::FunctionRef<absl::StatusOr<Solution>(
 // (solve.max_error), patches are options.adapt_patches, or no difference is left beyond noise: then
 // those without any are the triangles as they were. Depends on scene, options and seed alone, as
 // long as `run` does. At most sixteen pilots, which together shoot at most a quarter of solve's
-// budget of rays, and about a quarter of what its time allows. `meshing`: what was done. Fails as
-// BuildPatches does, and as `run` does.
+// budget of rays, and about a quarter of what its time allows. `meshing`: what was done. Where
+// `run` keeps its `seconds`, no pilot begins after a quarter of solve's time. Fails as BuildPatches
+// does, and as `run` does.
 absl::StatusOr<std::shared_ptr<const PatchSet>> AdaptMesh(const Scene& scene,
                                                           const PatchOptions& options,
                                                           const SolveOptions& solve, RunPilot run,

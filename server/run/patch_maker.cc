@@ -37,7 +37,11 @@ absl::StatusOr<std::shared_ptr<const PatchSet>> PatchMaker::Adapt(const Scene& s
                                                                   const JobOptions& options) {
   const TimePoint began = parts_.clock();
   const auto run = [&](const std::shared_ptr<const PatchSet>& patches, const SolveOptions& pilot,
-                       int32_t) { return RunPilot(patches, pilot); };
+                       int32_t) {
+    absl::StatusOr<Solution> solution = RunPilot(patches, pilot);
+    meshing_.seconds = ToSeconds(parts_.clock() - began);
+    return solution;
+  };
   absl::StatusOr<std::shared_ptr<const PatchSet>> patches =
       AdaptMesh(scene, options.patch, options.solve, run, &meshing_);
   if (!patches.ok()) return patches.status();
@@ -74,9 +78,10 @@ absl::StatusOr<Solution> PatchMaker::RunPilot(const std::shared_ptr<const PatchS
   }
   lambert::Snapshot snapshot = solver.MakeSnapshot();
   meshing_.pilot_rays += snapshot.progress.rays;
+  const std::shared_ptr<const Solution> solution = snapshot.solution;
   if (snapshot.progress.rays > 0) best_ = PilotResult{patches, plan, std::move(snapshot)};
   if (!status.ok()) return status;
-  return *best_->snapshot.solution;
+  return *solution;
 }
 
 absl::Status PatchMaker::Store(const std::shared_ptr<const PatchSet>& patches) {

@@ -148,6 +148,27 @@ TEST(AdaptMesh, PilotsKeepToAQuarterOfTheBudgets) {
   EXPECT_LE(Adapt(MakeShadow(), 2000, time).meshing.pilot_rays, 0.1 * 5e6 / 4 * 1.02);
 }
 
+TEST(AdaptMesh, NoPilotBeginsAfterAQuarterOfTheTime) {
+  PatchOptions options;
+  options.adapt_patches = 50'000;
+  SolveOptions solve;
+  solve.max_error = 1e-6;
+  solve.max_time_s = 100;
+  Meshing meshing;
+  const auto run = [&](const std::shared_ptr<const PatchSet>& patches, const SolveOptions& pilot,
+                       int32_t) -> absl::StatusOr<Solution> {
+    meshing.seconds += 10;
+    SolverRun solver(patches, pilot);
+    absl::Status status = solver.ToTheEnd();
+    if (!status.ok()) return status;
+    return *solver.solver.MakeSnapshot().solution;
+  };
+  ASSERT_TRUE(AdaptMesh(MakeShadow(), options, solve, run, &meshing).ok());
+  EXPECT_EQ(meshing.pilots, 3);
+  EXPECT_NE(meshing.reason.find("a quarter of the time of 100 s is spent"), std::string::npos)
+      << meshing.reason;
+}
+
 TEST(AdaptMesh, EndsWhereTheWantedErrorIsPredicted) {
   SolveOptions rough;
   rough.max_error = 0.5;
