@@ -3,6 +3,7 @@
 
 #include "radiosity/solve/adapt_mesh.h"
 #include "radiosity/solve/solver.h"
+#include "server/jobs/spec.h"
 #include "tests/service/service_fixture.h"
 
 namespace lambert {
@@ -10,7 +11,37 @@ namespace {
 
 constexpr int64_t kRays = 1'000'000, kPatches = 3000;
 
-// What a job on MakeCornell(1) is without a network.
+// A scene and what is asked for.
+struct Adaptable {
+  std::string glb;
+  v1::SolveSpec spec;
+  int64_t coarse = 0;  // patches
+};
+
+Adaptable WithPatches(const Scene& scene) {
+  Adaptable adaptable{ToGlb(scene), {}, PatchesOf(scene).size()};
+  adaptable.spec.set_max_ray_count(kRays);
+  adaptable.spec.mutable_patch()->set_adapt_patch_count(kPatches);
+  return adaptable;
+}
+
+Adaptable Cornell() { return WithPatches(MakeCornell(1)); }
+
+// A table on the ground, under a sky and the sun.
+Adaptable Table() {
+  const Paint gray{{0.5, 0.5, 0.5}, {}, true};
+  Adaptable adaptable = WithPatches(SceneMaker()
+                                        .Quad({-3, 0, -3}, {0, 0, 6}, {6, 0, 0}, gray)
+                                        .Quad({-1, 1, -1}, {0, 0, 2}, {2, 0, 0}, gray)
+                                        .Make());
+  v1::LightSpec& lights = *adaptable.spec.mutable_patch()->mutable_lights();
+  lights.set_sky("overcast");
+  lights.set_sun_elevation_degrees(60);
+  lights.set_sun_illuminance_lux(50'000);
+  return adaptable;
+}
+
+// What a job is without a network.
 struct Serial {
   std::shared_ptr<const PatchSet> patches;
   Meshing meshing;
@@ -30,13 +61,9 @@ Solution Solve(const std::shared_ptr<const PatchSet>& patches, const SolveOption
   return *solver.MakeSnapshot().solution;
 }
 
-Serial SolveSerially() {
-  const Scene scene = *LoadGltf({"room.glb", ToGlb(MakeCornell(1)), {}});
-  PatchOptions patch;
-  patch.adapt_patches = kPatches;
-  SolveOptions options;
-  options.shoot.method = Method::kAuto;
-  options.max_rays = kRays;
+Serial SolveSerially(const Adaptable& adaptable) {
+  const Scene scene = *LoadGltf({"room.glb", adaptable.glb, {}});
+  const auto [patch, options] = *server::DecodeSpec(adaptable.spec, PatchOptions().max_patches);
   Serial serial;
   serial.patches = *AdaptMesh(
       scene, patch, options,
@@ -54,13 +81,12 @@ Serial SolveSerially() {
 
 class MeshingJob : public ServiceFixture {
  protected:
-  v1::SolveJob CreateAdaptedJob() {
+  v1::SolveJob CreateAdaptedJob(const Adaptable& adaptable) {
     v1::Scene scene;
-    EXPECT_TRUE(CreateScene(ToGlb(MakeCornell(1)), &scene).ok());
+    EXPECT_TRUE(CreateScene(adaptable.glb, &scene).ok());
     v1::CreateSolveJobRequest request;
     request.set_scene(scene.name());
-    request.mutable_spec()->set_max_ray_count(kRays);
-    request.mutable_spec()->mutable_patch()->set_adapt_patch_count(kPatches);
+    *request.mutable_spec() = adaptable.spec;
     v1::SolveJob job;
     grpc::ClientContext context;
     EXPECT_TRUE(jobs()->CreateSolveJob(&context, request, &job).ok());
@@ -68,19 +94,24 @@ class MeshingJob : public ServiceFixture {
   }
 };
 
-TEST_F(MeshingJob, GivesTheBytesOfTheLoopWithoutANetworkAndTellsWhatItDid) {
-  const Serial serial = SolveSerially();
+class AdaptedScene : public MeshingJob, public testing::WithParamInterface<std::string> {};
+INSTANTIATE_TEST_SUITE_P(, AdaptedScene, testing::Values("Cornell", "Table"),
+                         [](const auto& info) { return info.param; });
+
+TEST_P(AdaptedScene, HasTheBytesOfTheLoopWithoutANetworkAndTellsWhatItDid) {
+  const Adaptable adaptable = GetParam() == "Table" ? Table() : Cornell();
+  const Serial serial = SolveSerially(adaptable);
   ASSERT_GT(serial.patches->size(), 64);
   ASSERT_GT(serial.pilots.size(), 1u);
   AddWorker();
   AddWorker();
-  const Watched watched = Watch(CreateAdaptedJob().name());
+  const Watched watched = Watch(CreateAdaptedJob(adaptable).name());
   EXPECT_EQ(watched.ended.state(), v1::SolveJob::STATE_SUCCEEDED);
   EXPECT_EQ(watched.ended.patch_set_digest().sha256(),
             DigestOf(EncodePatchSet(*serial.patches)).sha256());
   EXPECT_EQ(watched.payload, serial.solution);
   const v1::Meshing& meshing = watched.ended.meshing();
-  EXPECT_EQ(meshing.coarse_patch_count(), 32);
+  EXPECT_EQ(meshing.coarse_patch_count(), adaptable.coarse);
   EXPECT_EQ(meshing.pilot_count(), serial.meshing.pilots);
   EXPECT_EQ(meshing.pilot_ray_count(), serial.meshing.pilot_rays);
   EXPECT_EQ(meshing.predicted_rms_area(), serial.meshing.predicted_error);
@@ -91,9 +122,9 @@ TEST_F(MeshingJob, GivesTheBytesOfTheLoopWithoutANetworkAndTellsWhatItDid) {
 }
 
 TEST_F(MeshingJob, KeepsTheLastPilotThatShotWhereItIsCancelledMeanwhile) {
-  const Serial serial = SolveSerially();
+  const Serial serial = SolveSerially(Cornell());
   ASSERT_GT(serial.pilots.size(), 1u);
-  const std::string job = CreateAdaptedJob().name();
+  const std::string job = CreateAdaptedJob(Cornell()).name();
   PatchIndex first = 0;
   AddWorker([&](const std::shared_ptr<const PatchSet>& patches, const ShootOptions& options) {
     if (first == 0) first = patches->size();
@@ -117,7 +148,7 @@ TEST_F(MeshingJob, KeepsTheLastPilotThatShotWhereItIsCancelledMeanwhile) {
 
 TEST_F(MeshingJob, LeavesNoPatchSetOfItsPilots) {
   AddWorker();
-  const v1::SolveJob ended = Watch(CreateAdaptedJob().name()).ended;
+  const v1::SolveJob ended = Watch(CreateAdaptedJob(Cornell()).name()).ended;
   EXPECT_TRUE(coordinator_->blobs().Has(ended.patch_set_digest().sha256()));
   Scene scene = *LoadGltf({"room.glb", ToGlb(MakeCornell(1)), {}});
   EXPECT_FALSE(coordinator_->blobs().Has(DigestOf(EncodePatchSet(PatchesOf(scene))).sha256()));
