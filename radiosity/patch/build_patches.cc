@@ -125,8 +125,7 @@ Cuts FindCrossings(const Scene& scene, const PatchOptions& options, int64_t most
   std::vector<std::array<Vec3, 3>> triangles;
   const auto add = [&](const PlacedTriangle& triangle) {
     const int material = triangle.primitive->material;
-    const bool is_omitted =
-        options.blend == Blend::kOmit && material >= 0 && scene.materials[material].blend;
+    const bool is_omitted = material >= 0 && IsOmitted(scene.materials[material], options);
     // What is left out cuts nothing, as what has no area.
     triangles.push_back(is_omitted ? std::array<Vec3, 3>{} : triangle.corners);
     return absl::OkStatus();

@@ -48,7 +48,7 @@ absl::StatusOr<std::vector<PatchMaterial>> MakePatchMaterials(const Scene& scene
     made.exitance_lm_per_m2 = exitance_lm_per_m2;
     if (material.luminance != Rgb{}) made.exitance_texture = material.luminance_texture;
     made.two_sided = material.two_sided || options.two_sided;
-    made.omitted = material.blend && options.blend == Blend::kOmit;
+    made.omitted = IsOmitted(material, options);
     if (material.blend) ++blended;
     made.alpha = material.alpha;
     made.alpha_cutoff = material.alpha_cutoff;

@@ -15,10 +15,15 @@ struct PatchMaterial {
   Rgb exitance_lm_per_m2;          // pi * luminance, multiplies the texture
   TextureUse exitance_texture;
   bool two_sided = false;
-  bool omitted = false;  // alpha mode BLEND where that is left out
+  bool omitted = false;  // IsOmitted's
   // Where alpha times those of texture and colours is under the cutoff, there is no surface.
   double alpha = 1, alpha_cutoff = 0;
 };
+
+// Whether surfaces of the material are left out: alpha mode BLEND where that is.
+inline bool IsOmitted(const Material& material, const PatchOptions& options) {
+  return material.blend && options.blend == Blend::kOmit;
+}
 
 // One for each material of the scene, at index material + 1; index 0 is glTF's default material.
 // Reflectance over 1 becomes 1 (warning REFLECTANCE_CLAMPED); alpha mode BLEND is named

@@ -46,6 +46,15 @@ absl::StatusOr<Pose> PoseOf(const tinygltf::Model& model, int node, int mesh,
                     kExportAgain);
 }
 
+Vec3 Morphed(Vec3 rest, const std::vector<MorphOffsets>& targets, uint32_t i) {
+  for (const MorphOffsets& target : targets) {
+    std::array<float, 3> read;
+    target.offsets.Floats(i, read.data());
+    rest = rest + FromFloats(read) * target.weight;
+  }
+  return rest;
+}
+
 absl::StatusOr<PosedPositions> PosedPositions::Open(const tinygltf::Model& model,
                                                     const tinygltf::Primitive& gltf,
                                                     const Pose& pose,
@@ -169,11 +178,7 @@ absl::StatusOr<std::array<float, 3>> PosedPositions::At(uint32_t i,
   std::array<float, 3> read;
   positions_->Floats(i, read.data());
   if (!moves()) return read;
-  Vec3 position = FromFloats(read);
-  for (const Target& target : targets_) {
-    target.offsets.Floats(i, read.data());
-    position = position + FromFloats(read) * target.weight;
-  }
+  Vec3 position = Morphed(FromFloats(read), targets_, i);
   if (pose_->skin != nullptr) {
     const absl::StatusOr<Vec3> skinned = Skinned(i, position, where);
     if (!skinned.ok()) return skinned.status();

@@ -28,6 +28,15 @@ struct Pose {
 absl::StatusOr<Pose> PoseOf(const tinygltf::Model& model, int node, int mesh,
                             const NodeWorlds& worlds);
 
+// What a morph target adds to the vertices of a primitive, times its weight.
+struct MorphOffsets {
+  double weight;
+  AccessorReader offsets;  // x y z of each vertex
+};
+
+// What vertex `i` has at rest with all targets added. Requires: i in range of their offsets.
+Vec3 Morphed(Vec3 rest, const std::vector<MorphOffsets>& targets, uint32_t i);
+
 // The positions of one primitive in a pose.
 class PosedPositions {
  public:
@@ -45,15 +54,11 @@ class PosedPositions {
   // Vertex `i` in the pose; it may be not finite. SceneError for joints that do not exist.
   // Requires: i in range of the positions.
   absl::StatusOr<std::array<float, 3>> At(uint32_t i, const std::string& where) const;
-  // Where the joints of vertex `i` turn a direction, not of length 1.
-  // Errors and requirements as of At.
+  // Where the joints of vertex `i` turn a direction, not of length 1. Errors and requirements as of
+  // At.
   absl::StatusOr<Vec3> Turn(uint32_t i, Vec3 direction, const std::string& where) const;
 
  private:
-  struct Target {
-    double weight;
-    AccessorReader offsets;
-  };
   struct Influence {  // four joints a vertex
     AccessorReader joints, weights;
   };
@@ -67,7 +72,7 @@ class PosedPositions {
 
   const Pose* pose_ = nullptr;
   std::optional<AccessorReader> positions_;
-  std::vector<Target> targets_;
+  std::vector<MorphOffsets> targets_;
   std::vector<Influence> influences_;
   std::optional<AccessorReader> inverse_bind_;  // none: identity
 };

@@ -60,12 +60,7 @@ ShadingReader::ShadingReader(const tinygltf::Model& model, const tinygltf::Primi
 Vec3 ShadingReader::Directions::At(uint32_t i) const {
   std::array<float, 4> read;
   rest.Floats(i, read.data());
-  Vec3 direction{read[0], read[1], read[2]};
-  for (const Target& target : targets) {
-    target.offsets.Floats(i, read.data());
-    direction = direction + Vec3{read[0], read[1], read[2]} * target.weight;
-  }
-  return direction;
+  return Morphed({read[0], read[1], read[2]}, targets, i);
 }
 
 absl::Status ShadingReader::Copy(uint32_t i, const PosedPositions& positions,

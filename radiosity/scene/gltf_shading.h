@@ -27,13 +27,9 @@ class ShadingReader {
                     Primitive* primitive) const;
 
  private:
-  struct Target {
-    double weight;
-    AccessorReader offsets;  // x y z of each vertex
-  };
   struct Directions {
     AccessorReader rest;
-    std::vector<Target> targets;
+    std::vector<MorphOffsets> targets;
     Vec3 At(uint32_t i) const;
   };
   static std::optional<Directions> Open(const tinygltf::Model& model,

@@ -47,7 +47,7 @@ absl::Status CheckLedger(const WorkUnit& any, int64_t rays, const UnitResult& re
     return Unsound("it has " + std::to_string(result.channels) + " channels of " +
                    std::to_string(any.channels));
   }
-  if (any.walks ? result.rays < rays : result.rays != rays) {
+  if (!any.MayHaveShot(rays, result.rays)) {
     return Unsound("it reports " + std::to_string(result.rays) + " rays of " +
                    std::to_string(rays));
   }

@@ -58,6 +58,8 @@ struct WorkUnit {
   bool operator==(const WorkUnit&) const = default;
 
   int64_t RayCount() const;  // of the visits: where rays go on, those that they begin with
+  // Whether work that begins with `rays` rays may come to `shot` of them.
+  bool MayHaveShot(int64_t rays, int64_t shot) const { return walks ? shot >= rays : shot == rays; }
 };
 
 // What arrived at one patch, or came to rest at one place of a SurfaceTree.
@@ -110,10 +112,10 @@ void SpreadGray(UnitResult& result);
 // OK if the channels are the unit's; shot = deposited + escaped in each channel, without overflow;
 // what came to rest is what was deposited where the unit asks for it (rays_per_m2 > 0), and nothing
 // did where it does not; the rays are those of `unit`, or not fewer where they go on, and hits +
-// misses. Else DATA_LOSS (reason
-// RESULT_INVALID) with both numbers. So a fault in one number of flux is noticed. What is not: flux
-// at a wrong patch or place, hits short of all rays, sightings, and faults of several numbers that
-// balance. Those show where a unit is run twice, in bytes that differ.
+// misses. Else DATA_LOSS (reason RESULT_INVALID) with both numbers. So a fault in one number of
+// flux is noticed. What is not: flux at a wrong patch or place, hits short of all rays, sightings,
+// and faults of several numbers that balance. Those show where a unit is run twice, in bytes that
+// differ.
 absl::Status CheckLedger(const WorkUnit& unit, const UnitResult& result);
 
 // Canonical bytes (docs/formats.md): a unit's result has the same bytes wherever it was computed,

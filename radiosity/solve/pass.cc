@@ -42,7 +42,7 @@ Pass::Pass(const PassSetting& setting, int32_t number, int64_t rays, double rays
     : setting_(setting),
       number_(number),
       wanted_rays_(rays),
-      rays_per_first_ray_(rays_per_first_ray),
+      expected_rays_per_first_ray_(rays_per_first_ray),
       ledger_(setting.patches, setting.tree) {
   if (setting.tree != nullptr) {
     emitting_m2_ = Area(setting.patches, true);
@@ -135,16 +135,17 @@ absl::StatusOr<bool> Pass::SolveWhole(StepExecutor& executor) {
 
 absl::StatusOr<bool> Pass::Walk(StepExecutor& executor) {
   // All that arrives stays in the range of what one bounce may bring.
-  const int bounces = std::max(0, std::ilogb(rays_per_first_ray_) + 1);
+  const int bounces = std::max(0, std::ilogb(expected_rays_per_first_ray_) + 1);
   const int64_t steps_left = std::max<int64_t>(1, wanted_rays_ / kWalkStepRays - steps_);
   const std::vector<UnsentFlux> sent =
       Scaled(ledger_.unsent(), 1 / static_cast<double>(steps_left));
   const StepPlan plan =
       PlanStep(flux_per_ray_lm_, sent, std::max(kLeastWalkBits, kMaxQuantaBits - bounces));
-  const double unit_rays = static_cast<double>(UnitRays(
-      std::llround(static_cast<double>(plan.rays) * rays_per_first_ray_), setting_.patches.size()));
-  const absl::StatusOr<UnitResult> result =
-      Execute(executor, plan, std::max<int64_t>(1, std::llround(unit_rays / rays_per_first_ray_)));
+  const double unit_rays = static_cast<double>(
+      UnitRays(std::llround(static_cast<double>(plan.rays) * expected_rays_per_first_ray_),
+               setting_.patches.size()));
+  const absl::StatusOr<UnitResult> result = Execute(
+      executor, plan, std::max<int64_t>(1, std::llround(unit_rays / expected_rays_per_first_ray_)));
   if (!result.ok()) return result.status();
   ledger_.BookSolution(sent, plan, *result);
   unsent_fraction_ = ledger_.unsent_total_lm() / ledger_.emitted_total_lm();

@@ -67,7 +67,7 @@ class Pass {
   const PassSetting setting_;
   const int32_t number_;
   const int64_t wanted_rays_;
-  const double rays_per_first_ray_;  // as expected
+  const double expected_rays_per_first_ray_;
   FluxLedger ledger_;
   std::optional<Ambient> ambient_;        // while flux is shot ahead
   double emitting_m2_ = 0, area_m2_ = 0;  // of the patches; with a tree only

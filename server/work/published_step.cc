@@ -13,8 +13,7 @@ namespace {
 // What of a result comes here while shards take the rest.
 absl::Status CheckLedgerLine(const WorkUnit& unit, const UnitResult& line) {
   bool is_sound = line.deposits.empty() && line.rests.empty() && line.sightings.empty() &&
-                  (unit.walks ? line.rays >= unit.RayCount() : line.rays == unit.RayCount()) &&
-                  line.channels == unit.channels;
+                  unit.MayHaveShot(unit.RayCount(), line.rays) && line.channels == unit.channels;
   for (int c = 0; c < 3; ++c) {
     is_sound = is_sound && line.escaped[c] >= 0 && line.escaped[c] <= line.shot[c];
   }
