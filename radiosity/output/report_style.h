@@ -49,6 +49,7 @@ td.fact + td { overflow-wrap: anywhere; }
 @page { margin: 14mm; }
 @media print { :root { --ink: #000; --soft: #444; --paper: #fff; --line: #bbb; --panel: #fff;
   --accent: #b45309; --second: #1d6fa5; } figure, tr, .tiles, .warning { break-inside: avoid; }
+  tr:nth-last-child(-n + 2) { break-before: avoid; }
   body { padding: 0; max-width: none; font-size: 12px; print-color-adjust: exact; }
   h2 { break-after: avoid; margin-top: 1.4rem; } img { width: auto; max-width: 100%;
   max-height: 9.4cm; margin: 0 auto; } figcaption, h2 + figure { text-align: center; }
