@@ -54,6 +54,11 @@ class PartMaker {
 
 }  // namespace
 
+bool IsMasked(const Scene& scene, const Atlas& atlas, const AtlasPart& part) {
+  const int32_t material = PrimitiveOf(scene, atlas.placed.surfaces[part.surface]).material;
+  return material >= 0 && scene.materials[material].alpha_cutoff > 0;
+}
+
 AtlasSides SidesWithPatches(const Scene& scene, const PatchSet& patches, const Atlas& atlas) {
   AtlasSides sides{std::vector<bool>(atlas.front.size()), std::vector<bool>(atlas.back.size())};
   const std::vector<int32_t> triangles = FindTriangles(scene, atlas.placed, patches);

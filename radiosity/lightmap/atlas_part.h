@@ -20,6 +20,9 @@ struct AtlasPart {
   std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise seen from the part's side
 };
 
+// Whether alpha mode MASK cuts parts of the surface away.
+bool IsMasked(const Scene& scene, const Atlas& atlas, const AtlasPart& part);
+
 // Which triangles of the atlas are to be there, by side.
 struct AtlasSides {
   std::vector<bool> front, back;

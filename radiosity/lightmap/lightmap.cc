@@ -36,7 +36,8 @@ TexelValues TexelIrradiance(const TexelPage& page,
   return values;
 }
 
-void Dilate(const TexelPage& page, TexelValues& values) {
+template <size_t N>
+void Dilate(const TexelPage& page, std::vector<std::array<float, N>>& values) {
   std::vector<uint8_t> known(values.size());
   for (size_t i = 0; i < values.size(); ++i) known[i] = page.texels[i].patch != kNoPatch;
   std::vector<uint8_t> next = known;
@@ -45,7 +46,7 @@ void Dilate(const TexelPage& page, TexelValues& values) {
       for (int x = 0; x < page.width; ++x) {
         const size_t at = static_cast<size_t>(y) * page.width + x;
         if (known[at]) continue;
-        std::array<float, 3> sum{};
+        std::array<float, N> sum{};
         int count = 0;
         for (int v = std::max(y - 1, 0); v <= std::min(y + 1, page.height - 1); ++v) {
           for (int u = std::max(x - 1, 0); u <= std::min(x + 1, page.width - 1); ++u) {
@@ -53,7 +54,7 @@ void Dilate(const TexelPage& page, TexelValues& values) {
             if (!known[neighbour]) continue;
             ++count;
             // A running mean stays finite where values are as large as numbers are.
-            for (int channel = 0; channel < 3; ++channel) {
+            for (size_t channel = 0; channel < N; ++channel) {
               sum[channel] +=
                   (values[neighbour][channel] - sum[channel]) / static_cast<float>(count);
             }
@@ -67,6 +68,8 @@ void Dilate(const TexelPage& page, TexelValues& values) {
     known = next;
   }
 }
+template void Dilate(const TexelPage& page, std::vector<std::array<float, 3>>& values);
+template void Dilate(const TexelPage& page, std::vector<std::array<float, 4>>& values);
 
 absl::StatusOr<TexelReader> TexelReader::Create(const Scene& scene, const PatchSet& patches,
                                                 const Atlas& atlas) {
@@ -126,7 +129,7 @@ TexelSurface TexelReader::At(const TexelPage& page, size_t index) const {
   // Where alpha cuts all of the texel away, the patch's own mean fills the hole.
   return {covered > 0 ? material.reflectance * reflectance / covered
                       : patches_.reflectance[texel.patch],
-          material.exitance_lm_per_m2 * exitance};
+          material.exitance_lm_per_m2 * exitance, covered / 2};
 }
 
 }  // namespace lambert

@@ -45,13 +45,15 @@ TexelValues TexelIrradiance(const TexelPage& page,
 
 // Gives texels without a surface the mean of their neighbours that have a value, ring by ring,
 // kDilation rings: what a viewer mixes in at the border of a chart, and from smaller levels of the
-// picture.
+// picture. For N = 3 and 4.
 inline constexpr int kDilation = 16;
-void Dilate(const TexelPage& page, TexelValues& values);
+template <size_t N>
+void Dilate(const TexelPage& page, std::vector<std::array<float, N>>& values);
 
 // What a texel's surface reflects (0..1) and emits [lm/m2].
 struct TexelSurface {
   Rgb reflectance, exitance_lm_per_m2;
+  double coverage = 1;  // the share of the texel that alpha mode MASK leaves
 };
 
 // Reads materials texel by texel. Immutable; the scene, patches and atlas must outlive it.

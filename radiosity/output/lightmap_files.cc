@@ -21,10 +21,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The page as the picture shows it: exitance and reflected light, developed.
+// The page as the picture shows it: exitance and reflected light, developed. Alpha is the share of
+// each texel that masks leave where the page is `masked`.
 std::string DrawPage(const TexelReader& reader, const TexelPage& page,
-                     const TexelValues& irradiance_lx, const Exposure& exposure) {
-  TexelValues display(page.texels.size());
+                     const TexelValues& irradiance_lx, const Exposure& exposure, bool masked) {
+  std::vector<std::array<float, 4>> display(page.texels.size());
   for (size_t i = 0; i < display.size(); ++i) {
     if (page.texels[i].patch == kNoPatch) continue;
     const TexelSurface surface = reader.At(page, i);
@@ -34,12 +35,17 @@ std::string DrawPage(const TexelReader& reader, const TexelPage& page,
     for (int channel = 0; channel < 3; ++channel) {
       display[i][channel] = static_cast<float>(seen[channel]);
     }
+    display[i][3] = static_cast<float>(surface.coverage);
   }
   Dilate(page, display);
   std::vector<Rgb> pixels;
   pixels.reserve(display.size());
-  for (const auto& [r, g, b] : display) pixels.push_back({r, g, b});
-  return EncodePng(page.width, page.height, pixels);
+  std::vector<float> coverage;
+  for (const auto& [r, g, b, alpha] : display) {
+    pixels.push_back({r, g, b});
+    if (masked) coverage.push_back(alpha);
+  }
+  return EncodePng(page.width, page.height, pixels, coverage);
 }
 
 // The light in every texel of a page, gathered at its point [lx].
@@ -125,6 +131,11 @@ absl::Status WriteLightmap(const std::string& stem, const RunRecord& record,
   const Atlas& atlas = *record.atlas;
   const absl::StatusOr<TexelReader> reader = TexelReader::Create(scene, patches, atlas);
   if (!reader.ok()) return reader.status();
+  const std::vector<AtlasPart> parts = PartsOf(atlas, SidesWithPatches(scene, patches, atlas));
+  std::vector<bool> masked(atlas.pages.size());
+  for (const AtlasPart& part : parts) {
+    masked[part.page] = masked[part.page] || IsMasked(scene, atlas, part);
+  }
   std::vector<std::string> pngs;
   std::vector<LightmapImages> images;
   const std::vector<TexelPage> pages = FindTexels(scene, patches, atlas);
@@ -132,7 +143,7 @@ absl::Status WriteLightmap(const std::string& stem, const RunRecord& record,
     absl::StatusOr<TexelValues> light = TexelIrradiance(pages[page], corner_irradiance_lx);
     if (gather != nullptr) light = GatherTexels(pages[page], patches, corner_normals, gather);
     if (!light.ok()) return light.status();
-    pngs.push_back(DrawPage(*reader, pages[page], *light, exposure));
+    pngs.push_back(DrawPage(*reader, pages[page], *light, exposure, masked[page]));
     Dilate(pages[page], *light);
     const absl::StatusOr<std::string> exr = EncodeIrradianceExr(pages[page], *light);
     if (!exr.ok()) return exr.status();
@@ -140,7 +151,6 @@ absl::Status WriteLightmap(const std::string& stem, const RunRecord& record,
     if (!status.ok()) return status;
     images.push_back(EncodeLightmapImages(pages[page], *light));
   }
-  const std::vector<AtlasPart> parts = PartsOf(atlas, SidesWithPatches(scene, patches, atlas));
   absl::Status status =
       WriteIfOk(stem + ".lightmapped.glb",
                 EncodeLightmappedGlb(scene, patches, atlas, parts, pngs, exposure, view));

@@ -1,5 +1,6 @@
 #include "radiosity/output/lightmap_glb.h"
 
+#include <map>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -14,17 +15,28 @@ absl::StatusOr<std::string> EncodeLightmappedGlb(const Scene& scene, const Patch
                                                  const Exposure& exposure, const View& view) {
   using Json = GlbWriter::Json;
   GlbWriter writer;
+  std::vector<size_t> textures;
   for (size_t page = 0; page < pngs.size(); ++page) {
-    const size_t texture = writer.AddTexture(pngs[page], "image/png", AtlasSampler());
-    Json material = writer.UnlitMaterial(absl::StrCat("lightmap page ", page));
-    material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture}, {"texCoord", 1}};
-    writer.Add("materials", std::move(material));
+    textures.push_back(writer.AddTexture(pngs[page], "image/png", AtlasSampler()));
   }
-  const auto make_primitive = [&writer](const AtlasPart& part) {
+  // By page and whether there is a mask: the material, once there is a part of it.
+  std::map<std::pair<int32_t, bool>, size_t> materials;
+  const auto material_of = [&](const AtlasPart& part) {
+    const bool masked = IsMasked(scene, atlas, part);
+    const auto [found, is_new] = materials.try_emplace({part.page, masked});
+    if (!is_new) return found->second;
+    Json material =
+        writer.UnlitMaterial(absl::StrCat("lightmap page ", part.page, masked ? ", cut out" : ""));
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", textures[part.page]},
+                                                            {"texCoord", 1}};
+    if (masked) material["alphaMode"] = "MASK";
+    return found->second = writer.Add("materials", std::move(material));
+  };
+  const auto make_primitive = [&](const AtlasPart& part) {
     const size_t uv = writer.AddFloats(part.uv);
     // glTF allows no gap in the numbers of texture coordinates.
-    return AtlasPrimitive(part, {{"TEXCOORD_0", uv}, {"TEXCOORD_1", uv}},
-                          static_cast<size_t>(part.page), writer);
+    return AtlasPrimitive(part, {{"TEXCOORD_0", uv}, {"TEXCOORD_1", uv}}, material_of(part),
+                          writer);
   };
   AddAtlasNodes(scene, patches, atlas, parts, view, make_primitive, writer);
   writer.root()["asset"]["extras"] = {

@@ -146,6 +146,70 @@ TEST(WriteLightmap, ItsFilesShowTheLight) {
   EXPECT_GT(ReadFile(folder + "/room.irradiance.exr").size(), 1000u);
 }
 
+// A leaf: a disk of diameter .8 on a square card of two triangles.
+bool IsLeaf(double x, double y) { return std::hypot(x - 0.5, y - 0.5) < 0.4; }
+
+Scene MakeLeafOnAWall() {
+  Scene scene = SceneMaker()
+                    .Quad({}, {1, 0, 0}, {0, 1, 0}, {{0.5, 0.5, 0.5}, {}}, 1, "leaf")
+                    .Quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {{0.5, 0.5, 0.5}, {}}, 1, "wall")
+                    .Make();
+  Texture texture;
+  texture.width = 64;
+  texture.height = 64;
+  for (int i = 0; i < 64 * 64; ++i) {
+    const bool leaf = IsLeaf((i % 64 + 0.5) / 64, (i / 64 + 0.5) / 64);
+    texture.rgba.insert(texture.rgba.end(), {255, 255, 255, static_cast<uint8_t>(leaf ? 255 : 0)});
+  }
+  scene.textures = {texture};
+  scene.materials[0].reflectance_texture.texture = 0;
+  scene.materials[0].alpha_cutoff = 0.5;
+  Primitive& card = scene.meshes[0].primitives[0];
+  for (const auto& p : card.positions) card.uv[0].push_back({p[0], p[1]});
+  return scene;
+}
+
+TEST(WriteLightmap, WhatMasksCutAwayIsNotThere) {
+  const RunRecord record = LightmapRecord(MakeLeafOnAWall(), {64});
+  ASSERT_EQ(record.patches->size(), 4) << "no triangle is cut by more than half";
+  const std::string folder = TestFolder();
+  ASSERT_TRUE(WriteOutputs(folder, record).ok());
+  const Scene file = Reloaded(folder + "/room.lightmapped.glb");
+  int leaves = 0, holes = 0, walls = 0;
+  for (const Instance& instance : file.instances) {
+    for (const Primitive& primitive : file.meshes[instance.mesh].primitives) {
+      const Material& material = file.materials[primitive.material];
+      for (const auto& t : primitive.triangles) {
+        for (int u = 0; u < 20; ++u) {
+          for (int v = 0; u + v < 20; ++v) {
+            const Vec3 weights{(u + 0.5) / 21, (v + 0.5) / 21, (20 - u - v) / 21.0};
+            const Vec3 p = instance.world.Point({Interpolate(weights, primitive.positions, t, 0),
+                                                 Interpolate(weights, primitive.positions, t, 1),
+                                                 Interpolate(weights, primitive.positions, t, 2)});
+            if (p.z < -0.5) {
+              EXPECT_EQ(material.alpha_cutoff, 0) << "the wall has no mask";
+              ++walls;
+              continue;
+            }
+            ASSERT_EQ(material.alpha_cutoff, 0.5);
+            if (std::fabs(std::hypot(p.x - 0.5, p.y - 0.5) - 0.4) < 1.5 / 64) continue;
+            const Texture& texture = file.textures[material.reflectance_texture.texture];
+            const Uv uv = UvAt({0, 1}, primitive, t, weights);
+            const auto x = static_cast<size_t>(uv[0] * texture.width);
+            const auto y = static_cast<size_t>(uv[1] * texture.height);
+            const int alpha = texture.rgba[4 * (y * texture.width + x) + 3];
+            EXPECT_EQ(alpha, IsLeaf(p.x, p.y) ? 255 : 0) << p.x << " " << p.y;
+            ++(IsLeaf(p.x, p.y) ? leaves : holes);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(leaves, 150);
+  EXPECT_GT(holes, 100);
+  EXPECT_GT(walls, 400);
+}
+
 TEST(WriteLightmap, TexelsAreGatheredAtTheirOwnPoints) {
   RunRecord record = LightmapRecord(TexturedScene(), {32});
   const Vec3 origin = record.patches->origin;
