@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "radiosity/core/error.h"
 #include "radiosity/patch/patch_set.h"
@@ -85,12 +86,13 @@ absl::Status AddLamp(const Scene& scene, const LightOptions::Lamp& lamp,
   return absl::OkStatus();
 }
 
-// Every light carries its table: so many of so large ones are refused.
 absl::Status CheckTables(const std::vector<Light>& lights) {
-  size_t values = 0;
+  std::set<const SphereTable*> tables;
   for (const Light& light : lights) {
-    if (HasTable(light)) values += light.table->grid().values.size();
+    if (HasTable(light)) tables.insert(light.table.get());
   }
+  size_t values = 0;
+  for (const SphereTable* table : tables) values += table->grid().values.size();
   if (values <= kMostTableValues) return absl::OkStatus();
   return MakeError(absl::StatusCode::kInvalidArgument,
                    {"SCENE_TOO_LARGE", "lights",

@@ -2,6 +2,9 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <memory>
+#include <set>
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
@@ -15,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "the format is little-
 static_assert(sizeof(Vec3) == 24 && sizeof(Rgb) == 24 && sizeof(PatchSource) == 16 &&
               sizeof(std::array<Vec3, 3>) == 72 && sizeof(Transform) == 96);
 
-constexpr char kMagic[8] = {'L', 'M', 'B', 'P', 'T', 'C', 'H', '2'};
+constexpr char kMagic[8] = {'L', 'M', 'B', 'P', 'T', 'C', 'H', '3'};
 
 class Writer {
  public:
@@ -108,15 +111,20 @@ Camera ReadCamera(Reader* reader) {
   return camera;
 }
 
-void WriteLight(const Light& light, Writer* writer) {
-  writer->Text(light.name);
-  writer->Value(light.kind);
-  writer->Value(light.position);
-  writer->Value(light.strength);
-  for (const Vec3& axis : {light.x, light.y, light.z}) writer->Value(axis);
-  for (double cosine : {light.cos_inner, light.cos_outer}) writer->Value(cosine);
-  if (!HasTable(light)) return;
-  const SphereGrid& grid = light.table->grid();
+// The tables of lights, each once, in the order of the lights.
+using Tables = std::vector<std::shared_ptr<const SphereTable>>;
+
+Tables TablesOf(const std::vector<Light>& lights) {
+  Tables tables;
+  std::set<const SphereTable*> known;
+  for (const Light& light : lights) {
+    if (HasTable(light) && known.insert(light.table.get()).second) tables.push_back(light.table);
+  }
+  return tables;
+}
+
+void WriteTable(const SphereTable& table, Writer* writer) {
+  const SphereGrid& grid = table.grid();
   writer->Value<uint8_t>(grid.linear);
   writer->Value<uint8_t>(grid.channels);
   writer->Value<uint64_t>(grid.z.size());
@@ -125,6 +133,29 @@ void WriteLight(const Light& light, Writer* writer) {
   writer->Column(grid.z);
   writer->Column(grid.turn);
   writer->Column(grid.values);
+}
+
+void WriteLight(const Light& light, const std::map<const SphereTable*, uint64_t>& places,
+                Writer* writer) {
+  writer->Text(light.name);
+  writer->Value(light.kind);
+  writer->Value(light.position);
+  writer->Value(light.strength);
+  for (const Vec3& axis : {light.x, light.y, light.z}) writer->Value(axis);
+  for (double cosine : {light.cos_inner, light.cos_outer}) writer->Value(cosine);
+  if (HasTable(light)) writer->Value(places.at(light.table.get()));
+}
+
+void WriteLights(const std::vector<Light>& lights, Writer* writer) {
+  const Tables tables = TablesOf(lights);
+  writer->Value<uint64_t>(tables.size());
+  std::map<const SphereTable*, uint64_t> places;
+  for (const auto& table : tables) {
+    WriteTable(*table, writer);
+    places.emplace(table.get(), places.size());
+  }
+  writer->Value<uint64_t>(lights.size());
+  for (const Light& light : lights) WriteLight(light, places, writer);
 }
 
 std::shared_ptr<const SphereTable> ReadTable(Reader* reader) {
@@ -139,7 +170,7 @@ std::shared_ptr<const SphereTable> ReadTable(Reader* reader) {
   return reader->ok() ? SphereTable::Create(std::move(grid)).value_or(nullptr) : nullptr;
 }
 
-Light ReadLight(Reader* reader) {
+Light ReadLight(const Tables& tables, Reader* reader) {
   Light light;
   light.name = reader->Text();
   light.kind = reader->Value<Light::Kind>();
@@ -147,8 +178,26 @@ Light ReadLight(Reader* reader) {
   light.strength = reader->Value<Rgb>();
   for (Vec3* axis : {&light.x, &light.y, &light.z}) *axis = reader->Value<Vec3>();
   for (double* cosine : {&light.cos_inner, &light.cos_outer}) *cosine = reader->Value<double>();
-  if (HasTable(light)) light.table = ReadTable(reader);
+  if (!HasTable(light)) return light;
+  const uint64_t table = reader->Value<uint64_t>();
+  if (table < tables.size()) light.table = tables[table];
   return light;
+}
+
+// False for tables that are not those of the lights, in their order.
+bool ReadLights(Reader* reader, std::vector<Light>* lights) {
+  Tables tables;
+  const uint64_t table_count = reader->Count(2 + 3 * sizeof(uint64_t));
+  for (uint64_t i = 0; i < table_count && reader->ok(); ++i) {
+    tables.push_back(ReadTable(reader));
+    if (tables.back() == nullptr) return false;
+  }
+  const uint64_t count = reader->Count(sizeof(uint64_t) + sizeof(Vec3) + sizeof(Rgb));
+  for (uint64_t i = 0; i < count && reader->ok(); ++i) {
+    lights->push_back(ReadLight(tables, reader));
+    if (HasTable(lights->back()) && lights->back().table == nullptr) return false;
+  }
+  return TablesOf(*lights) == tables;
 }
 
 void ReadAnnotations(Reader* reader, PatchSet* patches) {
@@ -177,7 +226,6 @@ bool IsUnit(const Vec3& axis) { return std::fabs(Dot(axis, axis) - 1) < 1e-6; }
 
 const char* FindFault(const Light& light) {
   if (light.kind > Light::Kind::kSky) return "a light is of no known kind";
-  if (HasTable(light) && light.table == nullptr) return "a table of a light cannot be";
   if (!IsFinite(light.position) || !IsFluxLike(light.strength)) {
     return "a light is not finite or is negative";
   }
@@ -252,8 +300,7 @@ std::string EncodePatchSet(const PatchSet& patches) {
   writer.Column(patches.twin);
   writer.Column(patches.is_back);
   writer.Column(patches.source);
-  writer.Value<uint64_t>(patches.lights.size());
-  for (const Light& light : patches.lights) WriteLight(light, &writer);
+  WriteLights(patches.lights, &writer);
   writer.Value<uint64_t>(patches.node_names.size());
   for (const std::string& name : patches.node_names) writer.Text(name);
   writer.Value<uint64_t>(patches.cameras.size());
@@ -269,7 +316,7 @@ std::string EncodePatchSet(const PatchSet& patches) {
 absl::StatusOr<PatchSet> DecodePatchSet(const std::string& bytes) {
   Reader reader(bytes);
   if (bytes.compare(0, sizeof kMagic, kMagic, sizeof kMagic) != 0) {
-    return DataLoss("it does not begin with LMBPTCH2");
+    return DataLoss("it does not begin with LMBPTCH3");
   }
   reader.Value<uint64_t>();
   PatchSet patches;
@@ -285,10 +332,7 @@ absl::StatusOr<PatchSet> DecodePatchSet(const std::string& bytes) {
   reader.Column(count, &patches.twin);
   reader.Column(count, &patches.is_back);
   reader.Column(count, &patches.source);
-  const uint64_t lights = reader.Count(sizeof(uint64_t) + sizeof(Vec3) + sizeof(Rgb));
-  for (uint64_t i = 0; i < lights && reader.ok(); ++i) {
-    patches.lights.push_back(ReadLight(&reader));
-  }
+  if (!ReadLights(&reader, &patches.lights)) return DataLoss("a table of a light cannot be");
   ReadAnnotations(&reader, &patches);
   if (!reader.at_end()) return DataLoss("its length is not what its counts say");
   if (const char* fault = FindFault(patches)) return DataLoss(fault);

@@ -48,13 +48,36 @@ absl::StatusOr<LampProfile> ReadProfile(const tinygltf::Model& model, const nloh
   return ReadIes(where, std::string(reinterpret_cast<const char*>(span->data), span->size));
 }
 
+std::vector<std::string> ListOf(const tinygltf::Model& model) {
+  const nlohmann::json all = FindExtension(model.extensions_json_string, kName);
+  std::vector<std::string> list;
+  if (!all.is_object() || !all.contains("lights") || !all["lights"].is_array()) return list;
+  const auto replace = nlohmann::json::error_handler_t::replace;
+  for (const nlohmann::json& entry : all["lights"])
+    list.push_back(entry.dump(-1, ' ', false, replace));
+  return list;
+}
+
 }  // namespace
 
-absl::StatusOr<std::optional<Light>> ReadIesLight(const tinygltf::Model& model, int node,
-                                                  const Scene& scene,
-                                                  const std::optional<Transform>& axes,
+IesLamps::IesLamps(const tinygltf::Model& model, const Scene& scene)
+    : model_(model), scene_(scene), list_(ListOf(model)) {}
+
+absl::StatusOr<LampProfile> IesLamps::ProfileOf(double index, const std::string& where) {
+  if (!(index >= 0) || index >= static_cast<double>(list_.size())) {
+    return Bad(where, absl::StrCat("its lamp ", index, " does not exist"));
+  }
+  const auto at = static_cast<size_t>(index);
+  if (const auto found = read_.find(at); found != read_.end()) return found->second;
+  absl::StatusOr<LampProfile> profile =
+      ReadProfile(model_, nlohmann::json::parse(list_[at]), scene_, where);
+  if (profile.ok()) read_[at] = *profile;
+  return profile;
+}
+
+absl::StatusOr<std::optional<Light>> IesLamps::At(int node, const std::optional<Transform>& axes,
                                                   const std::string& where) {
-  const std::string& extensions = model.nodes[node].extensions_json_string;
+  const std::string& extensions = model_.nodes[node].extensions_json_string;
   const nlohmann::json own = FindExtension(extensions, kName);
   if (!own.is_object() || !axes) return std::nullopt;
   const absl::StatusOr<double> index = ExtensionNumber(extensions, kName, "light", -1, where);
@@ -64,13 +87,7 @@ absl::StatusOr<std::optional<Light>> ReadIesLight(const tinygltf::Model& model, 
   for (const absl::Status& status : {index.status(), multiplier.status(), color.status()}) {
     if (!status.ok()) return status;
   }
-  const nlohmann::json all = FindExtension(model.extensions_json_string, kName);
-  const auto lights = all.is_object() && all.contains("lights") ? all["lights"] : nlohmann::json();
-  if (!lights.is_array() || !(*index >= 0) || *index >= static_cast<double>(lights.size())) {
-    return Bad(where, absl::StrCat("its lamp ", *index, " does not exist"));
-  }
-  absl::StatusOr<LampProfile> profile =
-      ReadProfile(model, lights[static_cast<size_t>(*index)], scene, where);
+  absl::StatusOr<LampProfile> profile = ProfileOf(*index, where);
   if (!profile.ok()) return profile.status();
   Light light = LampAt(*profile, *axes);
   for (int c = 0; c < 3; ++c) light.strength[c] = *multiplier * std::clamp((*color)[c], 0.0, 1.0);

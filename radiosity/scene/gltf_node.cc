@@ -72,7 +72,8 @@ class NodeWalker {
         most_instances_(most_instances),
         scene_(scene),
         worlds_(worlds),
-        unread_(unread) {
+        unread_(unread),
+        ies_lamps_(model, *scene) {
     worlds_->resize(model.nodes.size());
     scene_->node_axes.resize(model.nodes.size());
   }
@@ -171,7 +172,7 @@ class NodeWalker {
 
   absl::Status ShowLamp(int node) {
     absl::StatusOr<std::optional<Light>> lamp =
-        ReadIesLight(model_, node, *scene_, scene_->node_axes[node], absl::StrCat("node ", node));
+        ies_lamps_.At(node, scene_->node_axes[node], absl::StrCat("node ", node));
     if (!lamp.ok()) return lamp.status();
     if (!*lamp) return absl::OkStatus();
     (*lamp)->node = node;
@@ -185,6 +186,7 @@ class NodeWalker {
   Scene* scene_;
   NodeWorlds* worlds_;
   UnreadFeatures* unread_;
+  IesLamps ies_lamps_;
 };
 
 }  // namespace

@@ -89,13 +89,18 @@ TEST(LightsOf, WhatTheSceneLacksIsNamed) {
 }
 
 TEST(LightsOf, TooManyLargeTablesAreRefused) {
+  const auto wide = [] {
+    return *DecodeSkyMap("w", EncodeSkyMap({2048, 1024, std::vector<float>(3 << 21)}));
+  };
   Scene scene = Lit();
-  scene.skies["wide.exr"] =
-      *DecodeSkyMap("w", EncodeSkyMap({2048, 1024, std::vector<float>(3 << 21)}));
-  scene.lights.assign(2, {"", {}, {1, 1, 1}, Light::Kind::kSky});
+  scene.skies["wide.exr"] = wide();
+  scene.lights.assign(5, {"", {}, {1, 1, 1}, Light::Kind::kSky});
   for (Light& light : scene.lights) light.table = scene.skies["wide.exr"];
-  EXPECT_TRUE(LightsOf(scene, {}).ok());
-  EXPECT_EQ(ReasonOf(LightsOf(scene, {.sky = "wide.exr"}).status()), "SCENE_TOO_LARGE");
+  EXPECT_TRUE(LightsOf(scene, {}).ok()) << "it is one table";
+  scene.lights[0].table = wide();
+  EXPECT_TRUE(LightsOf(scene, {.sky = "wide.exr"}).ok());
+  scene.lights[1].table = wide();
+  EXPECT_EQ(ReasonOf(LightsOf(scene, {}).status()), "SCENE_TOO_LARGE");
 }
 
 TEST(LightOptions, NumbersOutOfRangeAreRefused) {

@@ -35,6 +35,25 @@ TEST(PatchCodec, DecodingGivesBackWhatWasEncoded) {
   EXPECT_EQ(EncodePatchSet(*decoded), bytes);
 }
 
+TEST(PatchCodec, LightsOfOneTableShareIt) {
+  PatchSet patches = Everything();
+  const size_t once = EncodePatchSet(patches).size();
+  const Light sky = patches.lights.back();
+  patches.lights.insert(patches.lights.end(), 3, sky);
+  Light other = sky;
+  other.table = *SphereTable::Create({false, 1, {-1, 1}, {0, 1}, {4}});
+  patches.lights.push_back(other);
+  const std::string bytes = EncodePatchSet(patches);
+  EXPECT_LT(bytes.size(), once + 5 * 200) << "names, places and axes";
+  const absl::StatusOr<PatchSet> decoded = DecodePatchSet(bytes);
+  ASSERT_TRUE(decoded.ok()) << decoded.status();
+  const std::vector<Light>& lights = decoded->lights;
+  ASSERT_EQ(lights.size(), 6u);
+  for (int i = 2; i <= 4; ++i) EXPECT_EQ(lights[i].table, lights[1].table);
+  EXPECT_EQ(lights[5].table->grid().values, other.table->grid().values);
+  EXPECT_EQ(EncodePatchSet(*decoded), bytes);
+}
+
 TEST(PatchCodec, EmptySetTravelsToo) {
   const absl::StatusOr<PatchSet> decoded = DecodePatchSet(EncodePatchSet({}));
   ASSERT_TRUE(decoded.ok());

@@ -176,7 +176,7 @@ def main(protoc, proto_folder, lambert, server_program, worker_program, scene_pa
                     payload = newer or payload
                 assert ended.state == pb.SolveJob.STATE_SUCCEEDED, ended
                 assert payload == download(pb, channel, ended.latest_snapshot.payload_digest)
-                assert download(pb, channel, ended.patch_set_digest)[:8] == b"LMBPTCH2"
+                assert download(pb, channel, ended.patch_set_digest)[:8] == b"LMBPTCH3"
         finally:
             for process in reversed(running):
                 process.terminate()

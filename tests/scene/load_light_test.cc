@@ -109,6 +109,11 @@ TEST(LoadGltf, LampsByTheirPhotometricFilesStandAtTheirNodes) {
     EXPECT_EQ(lamp.table->Value({0, 0, 1}).r, 50);
   }
   EXPECT_EQ(in_view.Load()->lights[0].strength, (Rgb{2, 1, 2}));
+  in_view.json["nodes"].push_back(in_view.json["nodes"][1]);
+  in_view.json["scenes"][0]["nodes"] = {0, 1, 2};
+  const absl::StatusOr<Scene> two = in_view.Load();
+  ASSERT_EQ(two->lights.size(), 2u);
+  EXPECT_EQ(two->lights[0].table, two->lights[1].table) << "the file is read once";
 }
 
 TEST(LoadGltf, LampsThatCannotBeReadAreRefused) {
