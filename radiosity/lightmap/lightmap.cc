@@ -37,11 +37,11 @@ TexelValues TexelIrradiance(const TexelPage& page,
 }
 
 template <size_t N>
-void Dilate(const TexelPage& page, std::vector<std::array<float, N>>& values) {
+void Dilate(const TexelPage& page, std::vector<std::array<float, N>>& values, int rings) {
   std::vector<uint8_t> known(values.size());
   for (size_t i = 0; i < values.size(); ++i) known[i] = page.texels[i].patch != kNoPatch;
   std::vector<uint8_t> next = known;
-  for (int ring = 0; ring < kDilation; ++ring) {
+  for (int ring = 0; ring < rings; ++ring) {
     for (int y = 0; y < page.height; ++y) {
       for (int x = 0; x < page.width; ++x) {
         const size_t at = static_cast<size_t>(y) * page.width + x;
@@ -68,8 +68,8 @@ void Dilate(const TexelPage& page, std::vector<std::array<float, N>>& values) {
     known = next;
   }
 }
-template void Dilate(const TexelPage& page, std::vector<std::array<float, 3>>& values);
-template void Dilate(const TexelPage& page, std::vector<std::array<float, 4>>& values);
+template void Dilate(const TexelPage& page, std::vector<std::array<float, 1>>& values, int rings);
+template void Dilate(const TexelPage& page, std::vector<std::array<float, 3>>& values, int rings);
 
 absl::StatusOr<TexelReader> TexelReader::Create(const Scene& scene, const PatchSet& patches,
                                                 const Atlas& atlas) {

@@ -43,12 +43,13 @@ using TexelValues = std::vector<std::array<float, 3>>;
 TexelValues TexelIrradiance(const TexelPage& page,
                             const std::vector<std::array<Rgb, 3>>& corner_irradiance_lx);
 
-// Gives texels without a surface the mean of their neighbours that have a value, ring by ring,
-// kDilation rings: what a viewer mixes in at the border of a chart, and from smaller levels of the
-// picture. For N = 3 and 4.
+// Gives texels without a surface the mean of their neighbours that have a value, ring by ring:
+// what a viewer mixes in at the border of a chart, and from smaller levels of the picture. For N =
+// 1 and 3.
 inline constexpr int kDilation = 16;
 template <size_t N>
-void Dilate(const TexelPage& page, std::vector<std::array<float, N>>& values);
+void Dilate(const TexelPage& page, std::vector<std::array<float, N>>& values,
+            int rings = kDilation);
 
 // What a texel's surface reflects (0..1) and emits [lm/m2].
 struct TexelSurface {

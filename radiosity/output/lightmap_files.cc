@@ -21,11 +21,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Where patches are left out the mask ends, but for what viewers mix in at a chart's border.
+constexpr int kMaskRings = 1;
+
 // The page as the picture shows it: exitance and reflected light, developed. Alpha is the share of
 // each texel that masks leave where the page is `masked`.
 std::string DrawPage(const TexelReader& reader, const TexelPage& page,
                      const TexelValues& irradiance_lx, const Exposure& exposure, bool masked) {
-  std::vector<std::array<float, 4>> display(page.texels.size());
+  TexelValues display(page.texels.size());
+  std::vector<std::array<float, 1>> coverage(page.texels.size());
   for (size_t i = 0; i < display.size(); ++i) {
     if (page.texels[i].patch == kNoPatch) continue;
     const TexelSurface surface = reader.At(page, i);
@@ -35,17 +39,18 @@ std::string DrawPage(const TexelReader& reader, const TexelPage& page,
     for (int channel = 0; channel < 3; ++channel) {
       display[i][channel] = static_cast<float>(seen[channel]);
     }
-    display[i][3] = static_cast<float>(surface.coverage);
+    coverage[i] = {static_cast<float>(surface.coverage)};
   }
   Dilate(page, display);
+  Dilate(page, coverage, kMaskRings);
   std::vector<Rgb> pixels;
   pixels.reserve(display.size());
-  std::vector<float> coverage;
-  for (const auto& [r, g, b, alpha] : display) {
-    pixels.push_back({r, g, b});
-    if (masked) coverage.push_back(alpha);
+  for (const auto& [r, g, b] : display) pixels.push_back({r, g, b});
+  std::vector<float> alpha;
+  if (masked) {
+    for (const auto& [share] : coverage) alpha.push_back(share);
   }
-  return EncodePng(page.width, page.height, pixels, coverage);
+  return EncodePng(page.width, page.height, pixels, alpha);
 }
 
 // The light in every texel of a page, gathered at its point [lx].
