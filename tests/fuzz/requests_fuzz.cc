@@ -28,8 +28,10 @@ struct Service {
                      .total_pixels = 1 << 18};
     options.work.sync_interval = std::chrono::milliseconds(1);
     coordinator = *server::Coordinator::Start(options);
-    rpc = *server::RpcServer::Start(coordinator.get(), "");
-    stub = std::make_unique<grpc::GenericStub>(rpc->InProcessChannel());
+    // Over a socket: gRPC's in-process transport keeps memory of calls that are made step by step.
+    rpc = *server::RpcServer::Start(coordinator.get(), "127.0.0.1:0");
+    stub = std::make_unique<grpc::GenericStub>(
+        grpc::CreateChannel(rpc->address(), grpc::InsecureChannelCredentials()));
   }
   std::unique_ptr<server::Coordinator> coordinator;
   std::unique_ptr<server::RpcServer> rpc;
