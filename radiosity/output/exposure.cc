@@ -1,6 +1,7 @@
 #include "radiosity/output/exposure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -16,6 +17,17 @@ constexpr double kEmittedLevel = 0.8;  // of the brightest emitter, where nothin
 constexpr double kLitShare = 1e-4;
 
 constexpr double kSaturation = 1.2;  // luminance of white at EV 0 [cd/m2]
+
+// The least display value of each sRGB code but 0: where the code before it ends.
+std::array<double, 255> MakeLeastOfCodes() {
+  std::array<double, 255> least;
+  for (int code = 1; code < 256; ++code) {
+    const double encoded = (code - 0.5) / 255;
+    least[code - 1] =
+        encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+  }
+  return least;
+}
 
 constexpr double kRollOffStart = 0.8;
 constexpr double kDesaturation = 0.15;
@@ -81,10 +93,9 @@ Rgb Develop(Rgb radiosity_lm_per_m2, const Exposure& exposure) {
 }
 
 uint8_t SrgbByte(double display) {
-  const double value = std::clamp(display, 0.0, 1.0);
-  const double encoded =
-      value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-  return static_cast<uint8_t>(std::lround(255 * encoded));
+  static const std::array<double, 255> least = MakeLeastOfCodes();
+  return static_cast<uint8_t>(std::upper_bound(least.begin(), least.end(), display) -
+                              least.begin());
 }
 
 }  // namespace lambert

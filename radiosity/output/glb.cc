@@ -126,15 +126,16 @@ absl::StatusOr<std::string> EncodeGlb(const PatchSet& patches,
   }
   GlbWriter writer;
   std::map<Look, size_t> materials;  // of the scene: of the file
+  TextureLight::Copies copies;
   for (const auto& [node, parts] : nodes) {
     Json primitives = Json::array();
     for (const auto& [look, part] : parts) {
       const auto [material, gain] = look;
       const auto [known, is_new] = materials.try_emplace(look, 0);
       if (is_new) {
-        known->second =
-            material < 0 ? writer.Add("materials", writer.UnlitMaterial("radiosity"))
-                         : writer.Add("materials", textures.MakeMaterial(material, gain, writer));
+        known->second = writer.Add(
+            "materials", material < 0 ? writer.UnlitMaterial("radiosity")
+                                      : textures.MakeMaterial(material, gain, copies, writer));
       }
       primitives.push_back(AddPart(part, known->second, material >= 0, writer));
     }

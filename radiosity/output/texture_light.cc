@@ -110,15 +110,20 @@ TextureLight::Corner TextureLight::At(PatchIndex i, int corner) const {
   return made;
 }
 
-GlbWriter::Json TextureLight::MakeMaterial(int material, double gain, GlbWriter& writer) const {
+GlbWriter::Json TextureLight::MakeMaterial(int material, double gain, Copies& copies,
+                                           GlbWriter& writer) const {
   const Material& source = scene_->materials[material];
-  const Texture& texture = scene_->textures[source.reflectance_texture.texture];
-  const ImageBytes image = EncodeTexture(texture, gain);
-  const size_t index =
-      writer.AddTexture(image.bytes, image.mime_type,
-                        {{"wrapS", WrapCode(texture.wrap_u)}, {"wrapT", WrapCode(texture.wrap_v)}});
+  const int shown = source.reflectance_texture.texture;
+  const auto [copy, is_new] = copies.try_emplace({shown, gain}, 0);
+  if (is_new) {
+    const Texture& texture = scene_->textures[shown];
+    const ImageBytes image = EncodeTexture(texture, gain);
+    copy->second = writer.AddTexture(
+        image.bytes, image.mime_type,
+        {{"wrapS", WrapCode(texture.wrap_u)}, {"wrapT", WrapCode(texture.wrap_v)}});
+  }
   GlbWriter::Json made = writer.UnlitMaterial(source.name);
-  made["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", index}};
+  made["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", copy->second}};
   made["extras"] = {{"gain", gain}};
   if (source.alpha_cutoff > 0) {
     made["alphaMode"] = "MASK";

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "radiosity/lightmap/placed_scene.h"
@@ -34,8 +36,10 @@ class TextureLight {
   // Requires: MaterialOf(i) >= 0.
   Corner At(PatchIndex i, int corner) const;
 
-  // An unlit material with the texture times a gain (in its extras).
-  GlbWriter::Json MakeMaterial(int material, double gain, GlbWriter& writer) const;
+  // By texture of the scene and gain: the file's texture.
+  using Copies = std::map<std::pair<int, double>, size_t>;
+  // An unlit material with the texture times a gain (in its extras), which `copies` has or gets.
+  GlbWriter::Json MakeMaterial(int material, double gain, Copies& copies, GlbWriter& writer) const;
 
  private:
   double ChooseGain(PatchIndex i) const;

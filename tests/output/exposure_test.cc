@@ -95,6 +95,14 @@ TEST(SrgbByte, HitsTheKnownPointsOfTheCurve) {
   EXPECT_EQ(SrgbByte(0.21404114), 128 - 1);  // sRGB .5 = 127.5, a hair under
 }
 
+TEST(SrgbByte, IsTheRoundedCurve) {
+  for (int k = 0; k <= 100'000; ++k) {
+    const double x = k * 1e-5;
+    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    ASSERT_EQ(SrgbByte(x), std::lround(255 * encoded)) << x;
+  }
+}
+
 TEST(Luminance, OfWhiteIsItsValue) { EXPECT_DOUBLE_EQ(Luminance(Gray(3)), 3); }
 
 }  // namespace

@@ -284,6 +284,23 @@ TEST(EncodeGlb, WhatShinesThroughItsBaseTextureStaysSharpToo) {
   EXPECT_EQ(otherwise.MaterialOf(0), -1);
 }
 
+TEST(EncodeGlb, MaterialsOfOneTextureShareIt) {
+  Scene scene = TexturedScene();
+  scene.materials[1] = scene.materials[0];
+  Primitive& wall = scene.meshes[1].primitives[0];
+  for (const auto& p : wall.positions) wall.uv[0].push_back({p[0], p[1]});
+  const RunRecord record = RecordOf(PatchesOf(scene), [](Vec3) { return Rgb{2, 2, 2}; });
+  const std::vector<std::array<Rgb, 3>> light(record.patches->size(),
+                                              {Rgb{2, 2, 2}, Rgb{2, 2, 2}, Rgb{2, 2, 2}});
+  const std::string path = TestFolder() + "/room.glb";
+  const auto bytes = EncodeGlb(*record.patches, light, Exposure{0.2}, {}, &scene);
+  ASSERT_TRUE(bytes.ok()) << bytes.status();
+  ASSERT_TRUE(WriteOutputFile(path, *bytes).ok());
+  const Scene glb = Reloaded(path);
+  EXPECT_EQ(glb.materials.size(), 2u);
+  EXPECT_EQ(glb.textures.size(), 1u);
+}
+
 TEST(EncodeTexture, AGainMakesItBrighter) {
   Texture texture;
   texture.width = texture.height = 1;
