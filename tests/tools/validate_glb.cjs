@@ -1,9 +1,12 @@
-// node validate_glb.cjs FILE.glb...: prints what the Khronos validator says of each file; ends with 1
-// where it finds an error or a warning, but for pictures that MOZ_texture_rgbe brings: it knows PNG and JPEG alone.
+// node validate_glb.cjs [--errors] FILE.glb...: prints what the Khronos validator says of each file; ends with 1
+// where it finds an error or, without --errors, a warning, but for pictures that MOZ_texture_rgbe brings: it knows PNG
+// and JPEG alone.
 const fs = require('fs');
 const validator = require('gltf-validator');
 
-async function main(files) {
+async function main([first, ...others]) {
+  const most = first === '--errors' ? 0 : 1;  // severity
+  const files = first === '--errors' || first === undefined ? others : [first, ...others];
   let bad = files.length === 0;
   for (const file of files) {
     const bytes = fs.readFileSync(file);
@@ -13,7 +16,7 @@ async function main(files) {
     const isRgbe = (pointer) => images[/^\/images\/(\d+)/.exec(pointer)?.[1]]?.mimeType === 'image/vnd.radiance';
     console.log(`${file}: ${numErrors} errors, ${numWarnings} warnings`);
     for (const message of messages) {
-      if (message.severity > 1) continue;  // 2: information, 3: hint
+      if (message.severity > most) continue;  // 0: error, 1: warning, 2: information, 3: hint
       if (message.severity === 1 && isRgbe(message.pointer)) continue;
       console.log(`  ${message.code} at ${message.pointer}: ${message.message}`);
       bad = true;
