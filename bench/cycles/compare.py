@@ -6,8 +6,9 @@ Prints one JSON object. Compared is the reflected luminance, (B - E) / pi of pat
 rendering without the emission of the patch, as the mean of the three channels. A patch has the mean of its
 pixels, by the area that each shows of it; the renderings see it at other points each, and only pixels count
 in which a rendering saw one patch alone. Only patches are compared that are in view whole: what is hidden
-of one may be darker. PICTURE.jpg shows both
-side by side under the exposure of run.json, and filmic: Lambert on the left.
+of one may be darker. Black ones are left out: they reflect nothing, and what a rendering shows there is the light of
+another surface in the same plane. PICTURE.jpg shows both side by side under the exposure of run.json, and filmic: Lambert
+on the left.
 
 Needs python3-numpy, python3-openimageio and python3-pil.
 """
@@ -134,7 +135,7 @@ def share_confirmed(patch, baked_id):
 def main():
     folder, traced_folder = sys.argv[1:3]
     run = json.load(open(os.path.join(folder, "run.json")))
-    table = read_table(folder, ["exitance", "radiosity", "std_error"])
+    table = read_table(folder, ["reflectance", "exitance", "radiosity", "std_error"])
     paths = sorted(glob.glob(os.path.join(traced_folder, "seed_*.exr")))
     seeds = [read_exr(path) for path in paths]
     baked = read_exr(os.path.join(folder, run["name"] + ".exr"))
@@ -161,7 +162,7 @@ def main():
     # Of a ratio of sums over renderings, each of which sees a patch at other points.
     rest = (totals - truth * weights) / all_weights * math.sqrt(count / (count - 1))
     truth_error = numpy.sqrt((rest ** 2).sum(axis=0))
-    whole = (pixels > 0) & (pixels >= SEEN_WHOLE * view.areas())
+    whole = (pixels > 0) & (pixels >= SEEN_WHOLE * view.areas()) & (table["reflectance"].max(axis=1) > 0)
     share = numpy.where(whole, pixels, 0) / max(pixels[whole].sum(), 1e-300)
     mean_truth = (share * truth).sum()
     mean_excess = (share * ours).sum() - mean_truth
@@ -207,4 +208,5 @@ def main():
         both.save(sys.argv[3], quality=85, optimize=True)
 
 
-main()
+if __name__ == "__main__":
+    main()

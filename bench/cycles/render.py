@@ -9,7 +9,8 @@ cameras see through them. SCENE.glb, the file that was baked, is read for its pu
 sun are those of run.json. The camera is the node `view` of the GLB; the picture has half the pixels of
 the PNG each way, and all samples of a rendering are taken at one point of their pixel, the next one's at another: at
 first the middle. Writes OUT_DIR/seed_K.exr for each of SEEDS (16) renderings of SAMPLES (2) samples a pixel: luminance in cd/m2, and in the layer `patch` the number of the patch in
-digits of base 256. Nothing is clamped, denoised or cut short under 1024 bounces.
+digits of base 256. Nothing is clamped, denoised or cut short under 1024 bounces, the most that Cycles takes.
+The environment may set THREADS (1) and BOUNCES (1024).
 """
 
 import csv
@@ -203,7 +204,7 @@ def set_up_cycles(samples):
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
     cycles.light_sampling_threshold = 0
-    cycles.max_bounces = cycles.diffuse_bounces = 1024
+    cycles.max_bounces = cycles.diffuse_bounces = int(os.environ.get("BOUNCES", "1024"))
     cycles.transparent_max_bounces = 64  # of camera rays alone: nothing else sees through
     cycles.pixel_filter_type, cycles.filter_width = "GAUSSIAN", 0.01
     cycles.blur_glossy = 0
