@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "radiosity/core/bounds.h"
 #include "radiosity/patch/place.h"
 #include "radiosity/patch/shape.h"
 
@@ -19,6 +20,91 @@ double DistanceTo(const std::array<Vec3, 3>& corners, Vec3 p) {
   const double outside = -std::min({w.x, w.y, w.z, 0.0});
   return Length(p - on_plane) + outside * Length(corners[1] - corners[0]);
 }
+
+double DistanceTo(const Bounds& box, Vec3 p) {
+  const Vec3 off{std::max({box.low.x - p.x, p.x - box.high.x, 0.0}),
+                 std::max({box.low.y - p.y, p.y - box.high.y, 0.0}),
+                 std::max({box.low.z - p.z, p.z - box.high.z, 0.0})};
+  return Length(off);
+}
+
+// The surfaces that the instances of one node make of one primitive: a tree of boxes.
+class Copies {
+ public:
+  void Add(const PlacedScene& placed, const PlacedSurface& surface) {
+    const Vec3 any = placed.triangles[surface.first].corners[0];
+    Copy copy{surface.first, {any, any}};
+    for (int32_t t = surface.first; t < surface.first + surface.count; ++t) {
+      for (const Vec3& corner : placed.triangles[t].corners) copy.box.Add(corner);
+    }
+    copies_.push_back(copy);
+  }
+
+  // After the last Add.
+  void MakeTree() {
+    around_.resize(2 * copies_.size());
+    Split(0, 0, copies_.size());
+  }
+
+  // Of the triangles `t` of the copies the one nearest to `p`, the first of equals.
+  int32_t Nearest(const PlacedScene& placed, int32_t t, Vec3 p) const {
+    Search search{placed, t, p};
+    Visit(0, 0, copies_.size(), search);
+    return search.best;
+  }
+
+ private:
+  struct Copy {
+    int32_t first = 0;  // of its triangles
+    Bounds box;
+  };
+  struct Search {
+    const PlacedScene& placed;
+    int32_t triangle;
+    Vec3 p;
+    double nearest = std::numeric_limits<double>::infinity();
+    int32_t best = std::numeric_limits<int32_t>::max();
+  };
+
+  // n copies have a tree of 2 n - 1 nodes: their own, those of the first half, and of the second.
+  static size_t Second(size_t node, size_t half) { return node + 2 * half; }
+
+  void Split(size_t node, size_t begin, size_t end) {
+    Bounds& around = around_[node];
+    around = copies_[begin].box;
+    for (size_t i = begin + 1; i < end; ++i) around.Add(copies_[i].box);
+    if (end - begin == 1) return;
+    const Vec3 size = around.Size();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const auto middle = [axis](const Copy& copy) {
+      const Vec3 center = copy.box.Center();
+      return axis == 0 ? center.x : axis == 1 ? center.y : center.z;
+    };
+    const size_t half = (end - begin) / 2;
+    std::nth_element(copies_.begin() + begin, copies_.begin() + begin + half, copies_.begin() + end,
+                     [&](const Copy& a, const Copy& b) { return middle(a) < middle(b); });
+    Split(node + 1, begin, begin + half);
+    Split(Second(node, half), begin + half, end);
+  }
+
+  void Visit(size_t node, size_t begin, size_t end, Search& search) const {
+    if (DistanceTo(around_[node], search.p) > search.nearest) return;
+    if (end - begin > 1) {
+      const size_t half = (end - begin) / 2;
+      Visit(node + 1, begin, begin + half, search);
+      Visit(Second(node, half), begin + half, end, search);
+      return;
+    }
+    const int32_t triangle = copies_[begin].first + search.triangle;
+    const double distance = DistanceTo(search.placed.triangles[triangle].corners, search.p);
+    if (distance > search.nearest || (distance == search.nearest && triangle > search.best)) return;
+    search.nearest = distance;
+    search.best = triangle;
+  }
+
+  std::vector<Copy> copies_;
+  std::vector<Bounds> around_;  // by node
+};
 
 }  // namespace
 
@@ -70,29 +156,18 @@ bool SourcesExist(const Scene& scene, const PatchSet& patches) {
 
 std::vector<int32_t> FindTriangles(const Scene& scene, const PlacedScene& placed,
                                    const PatchSet& patches) {
-  std::map<std::tuple<int32_t, int32_t, int32_t>, std::vector<int32_t>> first_of;
+  std::map<std::tuple<int32_t, int32_t, int32_t>, Copies> copies_of;
   for (const PlacedSurface& surface : placed.surfaces) {
     const Instance& instance = scene.instances[surface.instance];
-    first_of[{instance.node, FileMeshOf(scene, instance), surface.primitive}].push_back(
-        surface.first);
+    copies_of[{instance.node, FileMeshOf(scene, instance), surface.primitive}].Add(placed, surface);
   }
+  for (auto& [source, copies] : copies_of) copies.MakeTree();
   std::vector<int32_t> found;
   found.reserve(patches.corners.size());
   for (PatchIndex i = 0; i < patches.size(); ++i) {
     const PatchSource& source = patches.source[i];
-    const std::vector<int32_t>& first = first_of.at({source.node, source.mesh, source.primitive});
-    int32_t best = first[0] + source.triangle;
-    if (first.size() > 1) {
-      double nearest = std::numeric_limits<double>::infinity();
-      for (int32_t start : first) {
-        const double distance = DistanceTo(placed.triangles[start + source.triangle].corners,
-                                           PatchCentroid(patches, i));
-        if (distance >= nearest) continue;
-        nearest = distance;
-        best = start + source.triangle;
-      }
-    }
-    found.push_back(best);
+    const Copies& copies = copies_of.at({source.node, source.mesh, source.primitive});
+    found.push_back(copies.Nearest(placed, source.triangle, PatchCentroid(patches, i)));
   }
   return found;
 }

@@ -155,6 +155,33 @@ TEST(SourcesExist, AMeshInAPoseOfItsOwnIsNamedAsInTheFile) {
             patches.corners.size());
 }
 
+TEST(FindTriangles, PatchesAreOfTheInstanceThatTheyLieIn) {
+  Scene scene = SceneMaker().Box({}, {1, 1, 1}, false, {{{0.5, 0.5, 0.5}, {}}}).Make();
+  const Instance one = scene.instances[0];
+  for (int i = 1; i < 100; ++i) {  // turned, near each other, in no common plane
+    Instance turned = one;
+    turned.world.x = {std::cos(i), 0, -std::sin(i)};
+    turned.world.z = {std::sin(i), 0, std::cos(i)};
+    turned.world.translation = {0.9 * (i % 10), 0.8 * (i / 10) + 0.013 * i, 0.1 * (i % 7)};
+    scene.instances.push_back(turned);
+  }
+  PatchOptions options;
+  options.max_edge_m = 0.8;
+  const PatchSet patches = *BuildPatches(scene, options);
+  const PlacedScene placed = PlaceScene(scene, patches.origin);
+  const std::vector<int32_t> found = FindTriangles(scene, placed, patches);
+  ASSERT_EQ(found.size(), 100u * 12 * 4);
+  for (PatchIndex i = 0; i < patches.size(); ++i) {
+    const SurfaceTriangle& triangle = placed.triangles[found[i]];
+    for (const Vec3& corner : patches.corners[i]) {
+      const Vec3 w = WeightsAt(triangle.corners, corner);
+      const auto& [a, b, c] = triangle.corners;
+      EXPECT_LT(Length(a * w.x + b * w.y + c * w.z - corner), 1e-9);
+      EXPECT_GT(std::min({w.x, w.y, w.z}), -1e-9);
+    }
+  }
+}
+
 TEST(PartsOf, EachPartHasTheTrianglesOfItsSide) {
   Paint paint{{0.5, 0.5, 0.5}, {}};
   paint.two_sided = true;
