@@ -88,7 +88,7 @@ absl::Status NoTriangles(const PatchBuilder& builder) {
   std::string message = "it holds no triangles", advice = "add a mesh to the default scene";
   if (builder.cut() > 0) {
     message = absl::StrCat("alpha mode MASK cuts all of its ", builder.cut(), " patches away");
-    advice = "lower the alphaCutoff of a material";
+    advice = "give a smaller --max-edge, or lower the alphaCutoff of a material";
   } else if (builder.omitted() > 0) {
     message = absl::StrCat("all of its ", builder.omitted(), " triangles are of alpha mode BLEND");
     advice = "give --blend opaque";

@@ -1,6 +1,8 @@
 #include "radiosity/scene/gltf_amend.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "absl/status/statusor.h"
@@ -15,6 +17,8 @@ using nlohmann::json_literals::operator""_json_pointer;
 
 constexpr char kMeshopt[] = "EXT_meshopt_compression";
 constexpr char kDraco[] = "KHR_draco_mesh_compression";
+// A file without any of these is right as it is.
+constexpr const char* kAmended[] = {"\"skins\"", "\"animations\"", "\"sparse\"", kMeshopt, kDraco};
 
 // The objects of list `name`.
 std::vector<json*> ObjectsOf(json* gltf, const char* name) {
@@ -57,6 +61,14 @@ bool Amend(json* gltf) {
       amended |= primitive->erase("indices") > 0;
     }
   }
+  for (json* animation : ObjectsOf(gltf, "animations")) {
+    for (json* channel : ObjectsOf(animation, "channels")) {
+      const auto target = channel->find("target");
+      if (target == channel->end() || !target->is_object() || target->contains("node")) continue;
+      (*target)["node"] = -1;
+      amended = true;
+    }
+  }
   for (json* buffer : ObjectsOf(gltf, "buffers")) {
     if (!IsFallbackBuffer(*buffer)) continue;
     (*buffer)["uri"] = "data:application/octet-stream;base64,AA==";
@@ -92,11 +104,9 @@ bool IsFallbackBuffer(const json& buffer) {
 
 std::optional<AmendedGltf> AmendGltf(const std::string& main_bytes) {
   const absl::StatusOr<absl::string_view> text = FindJsonText(main_bytes);
-  if (!text.ok() ||
-      (!absl::StrContains(*text, "\"skins\"") && !absl::StrContains(*text, kMeshopt) &&
-       !absl::StrContains(*text, kDraco) && !absl::StrContains(*text, "\"sparse\""))) {
-    return std::nullopt;
-  }
+  if (!text.ok()) return std::nullopt;
+  const auto holds = [&](const char* word) { return absl::StrContains(*text, word); };
+  if (std::none_of(std::begin(kAmended), std::end(kAmended), holds)) return std::nullopt;
   json gltf = json::parse(text->begin(), text->end(), nullptr, false);
   if (!gltf.is_object()) return std::nullopt;
   const bool changed = Amend(&gltf);

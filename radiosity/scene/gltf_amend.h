@@ -18,10 +18,11 @@ struct AmendedGltf {
   std::vector<size_t> without_view;  // accessors that name buffer view 0 here, and none in truth
 };
 
-// The file with skins that leave their inverse bind matrices out naming accessor -1, with
-// primitives that Draco compressed without indices of their own, with fallback buffers of one byte,
-// and with a buffer view for sparse indices that have none; nullopt where nothing is to be changed.
-// Requires: a file whose FindJsonText is ok.
+// The file with skins that leave their inverse bind matrices out naming accessor -1, with animated
+// targets that leave their node out (KHR_animation_pointer) naming node -1, with primitives that
+// Draco compressed without indices of their own, with fallback buffers of one byte, and with a
+// buffer view for sparse indices that have none; nullopt where nothing is to be changed. Requires:
+// a file whose FindJsonText is ok.
 std::optional<AmendedGltf> AmendGltf(const std::string& main_bytes);
 
 }  // namespace lambert

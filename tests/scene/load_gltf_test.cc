@@ -158,6 +158,22 @@ TEST(LoadGltf, EmissiveStrengthMultipliesAndMayExceedAnInt) {
   EXPECT_EQ(ReasonOf(document.Load().status()), "SCENE_INVALID");
 }
 
+TEST(LoadGltf, AnimationsOfWhatIsNoNodeAreShownAtRest) {
+  GltfDocument document;
+  const int times = document.AddAccessor<float>({0}, 5126, "SCALAR", 1);
+  const nlohmann::json pointer = {{"pointer", "/materials/0/pbrMetallicRoughness/roughnessFactor"}};
+  document.json["extensionsUsed"] = {"KHR_animation_pointer"};
+  document.json["animations"] = {
+      {{"samplers", {{{"input", times}, {"output", times}}}},
+       {"channels",
+        {{{"sampler", 0},
+          {"target",
+           {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", pointer}}}}}}}}}};
+  const absl::StatusOr<Scene> scene = document.Load();
+  ASSERT_TRUE(scene.ok()) << scene.status();
+  EXPECT_TRUE(Mentions(*scene, "animations (1 file): shown at rest"));
+}
+
 TEST(LoadGltf, OnlyTexturesThatShowAreDecoded) {
   GltfDocument document;
   const int good = document.AddTexture(MakePng(1, 1, std::string(4, '\x7f')));
