@@ -20,8 +20,8 @@ namespace lambert {
 namespace {
 
 // Changes whenever the same unit, of shooting or of gathering (gather_units.h), would give other
-// bytes.
-constexpr char kCodeVersion[] = "shoot-9,gather-1";
+// bytes, or what it is computed from travels in another format.
+constexpr char kCodeVersion[] = "shoot-10,gather-1";
 
 class EmbreeShooter : public Shooter {
  public:
